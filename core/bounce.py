@@ -30,14 +30,14 @@ from .visibility import cut_behind_mirrors, drop_behind_contacts, plainly_seen
 
 @dataclass(frozen=True)
 class Task:
-    """What holds for all steps of a bounce.
+    """Input and settings that all steps of a bounce share.
 
     Attributes
     ----------
-    met : SceneAndMirrors, what rays may meet
+    met : SceneAndMirrors, triangles that rays may hit
     settings : Settings
     limits : Limits
-    last : bool, light which meets a mirror goes no further
+    last : bool, True for the last bounce: rays that hit a mirror end there
     progress : Progress
     """
 
@@ -48,14 +48,14 @@ class Task:
     progress: Progress
 
     def reach(self, cameras: Cameras) -> float:
-        """Length of the longest path from cameras to the diffuse scene, in scene units."""
+        """Return an upper bound on the length of rays from cameras to the diffuse scene, in scene units."""
         centre, radius = self.met.bounds
         return float(norm(cameras.origins - centre[:, None]).max(initial=0.0) + radius)
 
 
 @dataclass(frozen=True)
 class Bounce:
-    """What is seen after one bounce.
+    """Faces that one bounce shows, with the cameras that see them.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Bounce:
     faces : Faces
     left : (2, e) float64, displacements estimated on the edges, and the lengths of the edges, in pixels
     corner_face : (k, 3) int64
-        Of the last k cameras, which span triangles of the mirror: the one that each of their corners lies on.
+        For each corner of the last k cameras, which span several mirror triangles: the face of the map it lies on.
     """
 
     cameras: Cameras
@@ -77,7 +77,7 @@ class Bounce:
 
 
 def bounced(cameras: Cameras, task: Task, showing: MirrorsShown) -> Bounce:
-    """All that the cameras see; which may show a mirror is told by `showing`."""
+    """Compute all faces that the cameras see; `showing` says which mirrors each camera may show."""
     crowds = Crowds(task.met, task.limits, task.last)
     cameras = crowds.without_most(cameras)
     cameras = refined(cameras, task, None if task.last else showing.faces)
@@ -89,8 +89,10 @@ def bounced(cameras: Cameras, task: Task, showing: MirrorsShown) -> Bounce:
 
 
 def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras:
-    """The cameras that may see the diffuse scene, or a mirror where the faces `showing` one are told, split where their
-    rays stray from the true map."""
+    """Select the cameras that may see something, and split them where their rays deviate from the true map.
+
+    `showing` (m,) bool marks faces of the map that may show a mirror; if None, only the diffuse scene counts.
+    """
     seeing = task.met.showing_scene(cameras)
     if showing is not None:
         seeing |= showing[cameras.face]
@@ -105,13 +107,16 @@ def refined(cameras: Cameras, task: Task, showing: np.ndarray | None) -> Cameras
 
 
 def showing_mirrors(cameras: Cameras, met: SceneAndMirrors, limits: Limits) -> MirrorsShown:
-    """The mirrors that cameras may show. To look for them first pays where few see any: hardly after a bounce."""
+    """Find the mirrors that cameras may show, before the cameras are refined.
+
+    The search pays only if few cameras see a mirror, as at the first bounce. Later bounces return `unknown`.
+    """
     return met.showing_mirrors(cameras, limits.pairs // 4) if cameras.mirror_map.bounce == 1 else \
         MirrorsShown.unknown(cameras)
 
 
 def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds) -> Candidates:
-    """Pairs of cameras and triangles that may be seen in them, the cameras cut until outlines in them are straight."""
+    """Find pairs of a camera and a triangle that it may see, with cameras split until outlines in them are straight."""
     task.progress.next(0.1, "Finding reflected objects")
     met, limits = task.met, task.limits
     candidates, crowd, pairs, visited = _met(cameras, task, showing, crowds)
@@ -124,7 +129,7 @@ def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds)
         candidates = crowds.thinned(candidates, crowd)
     candidates, still_bent, limited = refine_for_outlines(candidates, OUTLINE_SHARE * task.settings.tolerance,
                                                           limits.candidates, met, task.last)
-    # cameras of a pixel in which outlines are bent still, as where rays cross: there is nothing left to cut
+    # pixel-sized cameras with curved outlines, as where rays cross, cannot be split further: rays sample them
     candidates = crowds.thinned(candidates, still_bent)
     still_open, count = int(still_bent.sum()), len(candidates)
     crowds.given_up = len(crowds) - still_open - crowds.dense
@@ -136,9 +141,18 @@ def _culled(cameras: Cameras, task: Task, showing: MirrorsShown, crowds: Crowds)
 
 def _met(cameras: Cameras, task: Task, showing: MirrorsShown,
          crowds: Crowds) -> tuple[Candidates, np.ndarray, int, int]:
-    """Pairs of cameras and triangles that may overlap; which cameras (n,) meet too much, how many pairs were looked at,
-    and how many tree nodes visited. Mirrors are looked for on the faces `showing` some, at the last bounce where
-    they may hide something."""
+    """Find pairs of a camera and a triangle that may overlap.
+
+    Mirrors are searched on the faces that may show one (`showing`); at the last bounce, only where they may hide
+    something.
+
+    Returns
+    -------
+    candidates : Candidates
+    crowd : (n,) bool, cameras with too many triangles
+    pairs : int, number of pairs tested
+    visited : int, number of tree nodes visited
+    """
     met, bound = task.met, crowds.bound(cameras)
     found = met.diffuse_in(cameras, bound)
     crowd = crowds.full(cameras, found)
@@ -168,8 +182,14 @@ def _projected(candidates: Candidates, task: Task) -> VertexImages:
 
 
 def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candidates, np.ndarray, np.ndarray]:
-    """The candidates, and behind them the cells that rays have filled; which cameras (n,) are such cells; and the
-    mirror's triangles of the corners of those in whole squares."""
+    """Append the cells that rays sample to the candidates.
+
+    Returns
+    -------
+    candidates : Candidates, first the given ones, then those of the cells
+    by_rays : (n,) bool, cameras that are such cells
+    corner_face : (k, 3) int64, mirror triangle of each corner of the last k cells, which belong to whole squares
+    """
     exact = len(candidates.cameras)
     filled = crowds.filled(candidates)
     crowded = crowds.given_up if filled.less else 0
@@ -180,7 +200,7 @@ def _filled(candidates: Candidates, task: Task, crowds: Crowds) -> tuple[Candida
 
 
 def _clipped(candidates: Candidates, task: Task) -> Polygons:
-    """What the cameras see of each triangle; of mirrors only where light goes on."""
+    """Clip each candidate's triangle to its camera; at the last bounce, drop the polygons of mirrors."""
     task.progress.next(0.5, "Clipping faces")
     polygons = clip(candidates)
     mirror = task.met.are_mirrors(candidates)[polygons.pair]
@@ -191,7 +211,7 @@ def _clipped(candidates: Candidates, task: Task) -> Polygons:
 
 
 def _hidden(polygons: Polygons, task: Task, by_rays: np.ndarray) -> Polygons:
-    """The polygons without what mirrors hide; rays have told what cells show, and nothing hides that."""
+    """Cut away the parts of polygons that mirrors hide; polygons of ray-sampled cells (`by_rays`) stay as they are."""
     task.progress.next(0.7, "Reflecting other mirrors")
     cell = by_rays[polygons.camera]
     seen, occluded, undecided = cut_behind_mirrors(task.met, polygons.select(~cell))
@@ -200,13 +220,13 @@ def _hidden(polygons: Polygons, task: Task, by_rays: np.ndarray) -> Polygons:
 
 
 def _triangulated(polygons: Polygons, images: VertexImages, task: Task, by_rays: np.ndarray) -> Bounce:
-    """The polygons as faces on exact corners, of one parity each, and fine enough."""
+    """Triangulate the polygons on exact nodes, split the faces at caustics, and refine them to the tolerance."""
     progress, limits = task.progress, task.limits
     progress.next(0.75, "Building faces")
     cameras, frames = polygons.candidates.cameras, polygons.candidates.frames
     nodes, node_of = polygon_nodes(polygons, images)
     faces = connect(polygons, node_of, cameras.view.pixels(nodes.place.T))
-    # cells are as fine as they are to be
+    # cells sampled by rays need no refinement
     cells, faces = faces.select(by_rays[faces.camera]), faces.select(~by_rays[faces.camera])
     nodes, faces, caustic = split_at_caustics(cameras, frames, nodes, faces)
     progress.done("connection", connected=len(faces) + len(cells), caustic_edges=caustic)
@@ -216,7 +236,7 @@ def _triangulated(polygons: Polygons, images: VertexImages, task: Task, by_rays:
     room = limits.faces - len(cells)
     nodes, faces, left, limited = refinement.refine(nodes, faces, FACE_SHARE * task.settings.tolerance, room)
     progress.done("refinement", limited=limited, bounded=limited > 0 and len(faces) + 2 * limited > room)
-    # the border of what a cell shows may lie anywhere in it
+    # the outline in a cell may lie anywhere in it: its error is half the cell's edge
     length = edge_lengths(cameras.view.pixels(nodes.place.T)[cells.nodes]).ravel()
     left = np.concatenate((left, np.stack((0.5 * length, length))), axis=1)
     return Bounce(cameras, frames, nodes, Faces.joined([faces, cells]), left)

@@ -1,4 +1,4 @@
-"""Cameras of the next bounce: the images of mirrors in a mirror carry three-ray cameras of their own."""
+"""Cameras of the next bounce: one three-ray camera on each face that shows a mirror."""
 from __future__ import annotations
 
 import numpy as np
@@ -8,15 +8,15 @@ from .cameras import BouncedMap, Cameras, ray_numbers
 from .culling import SceneAndMirrors
 from .geometry import distinct, doubled_areas, groups
 
-SMALLEST = 1e-4  # square pixels: a smaller image of a mirror shows nothing
+SMALLEST = 1e-4  # square pixels (doubled area): smaller images of mirrors are ignored
 
 
 def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
-    """A camera on each face that shows a mirror, sharing the corners at which the ray goes on the same way.
+    """Make a camera on each face that shows a mirror; corners on one node with the same reflected ray are shared.
 
     Returns
     -------
-    cameras : Cameras, on the map of one bounce more; their faces are the chains of triangles that are seen
+    cameras : Cameras, on the map with one bounce more; their faces are chains of mirror triangles
     """
     frames, nodes, faces, before = bounce.frames, bounce.nodes, bounce.faces, bounce.cameras.mirror_map
     triangle = frames.triangle[faces.column] - met.diffuse
@@ -29,7 +29,7 @@ def bounced_cameras(bounce: Bounce, met: SceneAndMirrors) -> Cameras:
 
     node, face = faces.nodes[seen].ravel(), np.repeat(chain, 3)
     origins, rays = bounced.leave(face, bounced.coordinates(face, nodes.place[:, node]))
-    # one corner for those that lie on one node and have one ray
+    # share corners on one node with the same ray
     first, own = groups(node, *ray_numbers(rays))
     chosen, corner = distinct(first[own])
     places, origins, rays = nodes.place[:, node[chosen]], origins[:, chosen], rays[:, chosen]

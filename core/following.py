@@ -1,7 +1,7 @@
-"""Following: the faces of a reflection stay, and their vertices move to where the eye now sees their points.
+"""Incremental update of a reflection: faces stay, and vertices move to the new images of their points.
 
-While the eye, the mirror or the points move a little, each image moves a little too: Newton's method on the true map
-starts where the image was and ends where it is. What comes into sight, or goes, is left to the next reflection.
+If the eye, the mirror or the points move a little, each image moves a little too. Newton's method on the true map
+starts at the old image and ends at the new one. Points that become visible or hidden need a new reflection.
 """
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from .support import portions
 from .trees import SceneTree, first_crossed
 from .views import View
 
-STEPS = 3  # of Newton's method, before an image is looked for on other triangles of the mirror
-LOOKS = 4  # times that images are followed between two looks for one that is lost
-LIFTED = 3e-3  # of the viewing distance: faces that leave the mirror's triangles would sink behind its edges
-AT_ONCE = 1 << 15  # images, before whoever waits has a turn
-CLOSE = 1e-3  # of its viewing distance: where the ray of an image that was found may pass its point
+STEPS = 3  # Newton steps before an image is searched on other triangles of the mirror
+LOOKS = 4  # number of updates between two searches for a lost image
+LIFTED = 3e-3  # share of the viewing distance: offset towards the eye, so that the mirror's edges do not hide faces
+AT_ONCE = 1 << 15  # images per chunk, between two cooperative yields
+CLOSE = 1e-3  # share of the viewing distance: largest distance at which a ray counts as passing through a point
 
 
 @dataclass(frozen=True)
@@ -32,18 +32,18 @@ class FollowedImages:
     source : (n,) int64
         Triangle of the scene that each point lies in.
     weights : (3, n) float64
-        Its place there.
+        Barycentric coordinates of the point in that triangle.
     face : (n,) int64
         Triangle of the mirror in which it is seen.
     uv : (2, n) float64
-        Where there.
+        Barycentric coordinates (u, v) of the image in that triangle.
     distance : (n,) float64
-        s: how many viewing distances, or in orthographic views units, the point is away from there.
+        Distance s from the image's place to the point, in viewing distances (orthographic views: scene units).
     lost : (n,) bool
-        Which were no images any more when they were followed last: they are looked for on other triangles of the
-        mirror only every `LOOKS` times.
+        True for points without an image at the last update. They are searched on other mirror triangles only at every
+        `LOOKS`-th update.
     times : int
-        How often they have been followed.
+        Number of updates so far.
 
     Examples
     --------
@@ -69,7 +69,7 @@ class FollowedImages:
 
     @classmethod
     def of(cls, view: View, mirror: TriangleMesh, mesh: ReflectionMesh) -> FollowedImages:
-        """The images at the vertices of a reflection with faces, of one bounce, as `view` sees them in `mirror`."""
+        """Return the images at the vertices of `mesh`, a reflection with faces and one bounce, seen in `mirror`."""
         count = len(mesh.positions)
         source, face, weights = np.zeros(count, np.int64), np.full(count, -1), np.zeros((count, 3))
         corner = mesh.triangles.ravel()
@@ -78,13 +78,13 @@ class FollowedImages:
         places = rows(mesh.mirror_position)
         unknown = np.flatnonzero(face < 0)
         if len(unknown):
-            # of faces that span several triangles of the mirror
+            # trace rays to find the mirror triangle of faces that span several
             ahead = rows(view.directions(mesh.mirror_position[unknown]))
             tree = SceneTree.build(mirror)
             found, away = first_crossed(tree, places[:, unknown] - ahead, unit(ahead))
             there = np.abs(away - norm(ahead)) < CLOSE * norm(ahead)
             face[unknown] = np.where(there, tree.given.triangle[np.maximum(found, 0)], -1)
-            # a ray may slip through between two triangles: then what its neighbours lie on
+            # a ray may pass between two triangles: then take the triangle of its face's other corners
             near = np.zeros(count, dtype=np.int64)
             np.maximum.at(near, corner, np.repeat(face[mesh.triangles].max(axis=1), 3))
             face = np.where(face >= 0, face, near)
@@ -94,7 +94,10 @@ class FollowedImages:
         return cls(source, rows(weights), face, uv, distance, np.zeros(count, dtype=bool))
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh, placement: str) -> Followed:
-        """Where the view sees the images now, in a mirror and a scene of as many triangles as before."""
+        """Return the images' new positions for the current `view`, `mirror` and `scene`.
+
+        The mirror and the scene must have the same triangles as before; `placement` is one of `PLACEMENTS`.
+        """
         mirror_map = MirrorMap(view, mirror)
         face, uv, s, points, seen = (np.empty_like(self.face), np.empty_like(self.uv), np.empty_like(self.distance),
                                      np.empty_like(self.weights), np.empty_like(self.weights))
@@ -107,22 +110,30 @@ class FollowedImages:
             s[some] = np.where(lost[some], path[some] / norm(mirror_map.arriving(seen[:, some])), s[some])
         positions = place(view, seen, path, placement)
         if placement == "LAYERED" and len(path):
-            # towards the eye, who sees no difference
+            # move the vertices towards the eye, which does not change the picture
             ahead = view.directions(positions.T).T
             positions = positions - LIFTED * (np.ptp(seen, axis=1).max() if view.orthographic else 1.0) * ahead
         images = replace(self, face=face, uv=uv, distance=s, lost=lost, times=self.times + 1)
         return Followed(images, positions.T, points.T, seen.T, path, lost)
 
     def _points(self, scene: TriangleMesh, some: slice) -> np.ndarray:
-        """Where some of the points are now, (3, n)."""
+        """Return the world-space positions (3, k) of the points `some` on the current scene."""
         corners = scene.positions[scene.triangles[self.source[some]]]
         return rows(np.einsum("kn,nkc->nc", self.weights[:, some], corners))
 
     def _found(self, mirror_map: MirrorMap, points: np.ndarray, some: slice) -> tuple[np.ndarray, ...]:
-        """The triangle of the mirror, the place in it and the distance of some of the images, and which are lost."""
+        """Find `some` of the images again on the current mirror.
+
+        Returns
+        -------
+        face : (k,) int64, triangle of the mirror
+        uv : (2, k) float64, place in that triangle
+        s : (k,) float64, distance to the point
+        lost : (k,) bool, True where no image was found
+        """
         uv, s = mirror_map.locate(self.face[some], self.uv[:, some], self.distance[some], points, STEPS)
         face, found = self.face[some].copy(), np.minimum(uv.min(axis=0), 1.0 - uv.sum(axis=0)) >= -INSIDE
-        # most of what is lost stays so, and costs the longest walks
+        # most lost images stay lost, and they cost the longest walks: search each at every LOOKS-th update only
         turn = (some.start + np.arange(len(found))) % LOOKS == self.times % LOOKS
         near = np.flatnonzero(~found & (turn | ~self.lost[some]))
         face[near], uv[:, near], s[near], found[near] = settle(
@@ -134,17 +145,18 @@ class FollowedImages:
 
 @dataclass(frozen=True)
 class Followed:
-    """Where images went.
+    """New positions of followed images.
 
     Attributes
     ----------
     images : FollowedImages
-        To be followed further.
+        The same images at their new places, for the next update.
     positions, reflected_position, mirror_position : (n, 3) float64
+        In world space, with the meaning that they have in a `ReflectionMesh`.
     path_length : (n,) float64
-        As of a `ReflectionMesh`.
+        In scene units, with the meaning that it has in a `ReflectionMesh`.
     lost : (n,) bool
-        Images that are no more; they stay at the rim of the mirror's triangle that they left.
+        True for points without an image; they stay at the border of the mirror triangle that they left.
     """
 
     images: FollowedImages

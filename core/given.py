@@ -1,4 +1,4 @@
-"""What the door is given, looked at before any work: of the right kinds, not empty, and the eye not on the mirror."""
+"""Input validation for `reflect`: its arguments have the right types, are not empty, and the eye is off the mirror."""
 from __future__ import annotations
 
 import numpy as np
@@ -13,7 +13,7 @@ NO_AREA = "The mirror has no face with an area; give it faces or choose another 
 
 def check_given(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree, settings: Settings,
                 mirrors: TriangleMesh | None) -> None:
-    """Raises `ReflectionError` where nothing can be made of what `reflect` is given."""
+    """Raise `ReflectionError` if `reflect` cannot work with its arguments."""
     must_be(view, View, "The view must be a View; make one of a camera's matrices or with looking_at.")
     must_be(mirror, TriangleMesh, "The mirror must be a TriangleMesh; make one of its positions and triangles.")
     must_be(scene, (TriangleMesh, SceneTree, PointTree), "The scene must be a TriangleMesh, a SceneTree or a "
@@ -51,7 +51,15 @@ def checked_opacity(scene: TriangleMesh | SceneTree | PointTree, opacity: np.nda
 
 
 def _touched(eye: np.ndarray, corners: np.ndarray, normals: np.ndarray, length: np.ndarray) -> bool:
-    """Whether a place lies on one of the triangles, of which their corners (3, 3, m) and normals (3, m) are given."""
+    """Return True if the eye (3,) lies on one of m triangles.
+
+    Parameters
+    ----------
+    eye : (3,) float64
+    corners : (3, 3, m) float64, as [component, corner, triangle]
+    normals : (3, m) float64, area normals of the triangles
+    length : (m,) float64, lengths of the normals
+    """
     offset = eye[:, None, None] - corners
     height = np.abs(dot(normals[:, None], offset)).min(axis=0) / np.where(length > 0.0, length, np.inf)
     near = np.flatnonzero((length > 0.0) & (height < 1e-6 * np.sqrt(length)))

@@ -1,9 +1,8 @@
-"""Far from the origin: a scene whose coordinates dwarf its mirror is worked on beside the origin.
+"""Translation of scenes far from the origin, relative to the mirror's size, to the origin and back.
 
-Coordinates far out spend their digits on where the mirror is, and leave few for what it looks like: places and rays
-would be rounded to the spacing of numbers out there over and over. The difference of two numbers as near to each
-other as those of one scene is exact or rounded no more than they were themselves, so moving everything by a corner of
-the mirror's box loses nothing, and what follows has all digits.
+Large coordinates use most of their digits for the mirror's position and few for its shape: places and rays would be
+rounded again and again. The difference of two nearby numbers is exact, or rounded no more than the numbers were. So
+moving everything by a corner of the mirror's bounding box loses nothing, and later steps have full precision.
 """
 from __future__ import annotations
 
@@ -18,14 +17,14 @@ from .result import ReflectionMesh
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 
-FAR = 1024.0  # sizes of the mirror: nearer ones keep 43 of 53 bits
+FAR = 1024.0  # distance from the origin in mirror sizes: nearer mirrors keep 43 of 53 bits
 Surface = TypeVar("Surface", bound=TriangleMesh | SceneTree | PointTree)
 
 
 def far_corner(mirror: TriangleMesh) -> np.ndarray | None:
-    """The low corner (3,) of the box round a mirror that is far from the origin for its size, None for any other.
+    """Return the low corner (3,) of the mirror's bounding box if the mirror is far from the origin, else None.
 
-    It is made of the mirror's own coordinates, so that it moves and scales with the scene to the last bit.
+    The corner consists of the mirror's own coordinates, so it moves and scales with the scene to the last bit.
     """
     used = mirror.positions[mirror.triangles.ravel()]
     low = used.min(axis=0)
@@ -44,7 +43,7 @@ def moved_view(view: View, offset: np.ndarray) -> View:
 
 
 def moved_surface(surface: Surface, offset: np.ndarray) -> Surface:
-    """A copy moved by `offset` (3,); of a tree, with spheres that hold what the moving rounds."""
+    """Return a copy translated by `offset` (3,); bounding spheres of trees are enlarged by the rounding error."""
     if isinstance(surface, TriangleMesh):
         return cast(Surface, surface.like(surface.positions + offset, surface.triangles, surface.corner_normals))
     moved = _with(surface, mesh=moved_surface(surface.mesh, offset),
@@ -65,7 +64,7 @@ def _moved(spheres: np.ndarray, offset: np.ndarray) -> np.ndarray:
 
 
 def _with(surface: Surface, **values: object) -> Surface:
-    """A copy with other values, which are known to be good."""
+    """Return a copy with other attribute values, without checks, and without cached properties."""
     copied = copy(surface)
     for made in ("bodies", "boxes", "vertices"):
         vars(copied).pop(made, None)

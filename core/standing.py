@@ -1,5 +1,4 @@
-"""What stands still from frame to frame: the diffuse scene with its tree, and the mirrors with all that their shape
-tells."""
+"""A cache for frames in which scene and mirrors do not move: the scene's tree, and data derived from the mirrors."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,16 +10,17 @@ from .trees import PointTree, SceneTree
 
 @dataclass(frozen=True)
 class Standing:
-    """A diffuse scene and mirrors for `reflect` in place of the scene, worked out once while both stand still; the
-    mirror that it is asked for may be another one, or move.
+    """A cached diffuse scene with mirrors, to pass to `reflect` in place of the scene while neither moves.
+
+    The `mirror` argument of `reflect` may still be another mesh, or move.
 
     Attributes
     ----------
     tree : SceneTree or PointTree
     mirrors : TriangleMesh
-        All mirrors, as they were given.
+        All input mirrors, in their original order.
     order : Order
-        Of the mirrors, which `met` holds in their canonical order.
+        Canonical order of the mirrors, which `met` uses.
     met : SceneAndMirrors
 
     Examples
@@ -43,7 +43,7 @@ class Standing:
 
     @classmethod
     def of(cls, scene: TriangleMesh | SceneTree | PointTree, mirrors: TriangleMesh) -> Standing:
-        """Of a scene, and all mirrors that may be seen in each other."""
+        """Build the cache of a scene and of all `mirrors` that may be seen in each other, all in world space."""
         tree = SceneTree.build(scene) if isinstance(scene, TriangleMesh) else scene
         met, order = ordered(mirrors, shading=True)
         return cls(tree, mirrors, order, SceneAndMirrors(tree, met, given=order.triangle))

@@ -1,7 +1,7 @@
-"""Backward: the part of a mirror whose triangles are too small for cameras of their own, by one ray for each pixel.
+"""Backward: the part of a mirror whose triangles are too small for one camera each, sampled by one ray per pixel.
 
-In come a view, a mirror and what rays may meet; out come faces between what neighbouring rays show. C. Mei, talk, 2006:
-hybrid forward-backward.
+Input are a view, a mirror and the triangles that rays may hit. Output are faces between the hit points of neighbouring
+rays. C. Mei, talk, 2006: hybrid forward-backward.
 """
 from .arrays import backward_arrays
 from .backward_part import BackwardPart

@@ -1,4 +1,4 @@
-"""What is made backwards as the plain arrays of the result."""
+"""Assembly of the part made by rays from the eye, as the plain arrays of the result."""
 from __future__ import annotations
 
 import numpy as np
@@ -9,7 +9,7 @@ from .backward_part import BackwardPart
 
 
 def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
-    """Return the arrays of `ReflectionMesh` but for its positions, in the method's own order."""
+    """Return the arrays of `ReflectionMesh` except its positions; triangle indices are in the canonical order."""
     paths, spots, cells = part.faces()
     used, corner = distinct(cells.faces.ravel())
     paths, spots, triangles = paths.select(used), spots[used], corner.reshape(-1, 3)
@@ -17,7 +17,7 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     found, column = distinct(source)
     frames = SceneFrames.of(met, found)
     weights = frames.weights_within(np.repeat(column, 3), paths.point[:, triangles.ravel()]).T.reshape(-1, 3, 3)
-    # a vertex shows one thing, so the point on its source is that of any of its faces
+    # all faces at a vertex have the same source triangle, so a vertex needs one reflected point only
     corners = rows(met.positions[frames.vertices[:, column]])
     normals = area_normals(corners)
     height = sum(dot(normals, columns(paths.origin, node) - corners[:, 0]) for node in triangles.T)

@@ -1,4 +1,4 @@
-"""The part of a reflection that is made backwards: one ray for each pixel, and faces between what they meet."""
+"""The part of a reflection that is made backwards: one ray from the eye per pixel, and faces between the hit points."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -20,9 +20,9 @@ from .lattice import ASIDE, Lattice, lattice_step
 from .outlines import Sides, between, crossings, halved, joined
 from .paths import NOTHING, Paths, PathTracer
 
-LOOKED = 0.02   # share of the rays to outlines that may be left where the depth is automatic
-STRAIGHT = 0.1  # pixels that outlines may lie beside straight lines
-SUNK = 0.5      # of the room that layers keep before the mirror: how far the middle of a face may lie behind it
+LOOKED = 0.02   # share of the rays to outlines that may hit one more mirror and end there, if the depth is automatic
+STRAIGHT = 0.1  # pixels: largest distance of an outline from the straight line that replaces it
+SUNK = 0.5      # share of the gap between layers and the mirror: largest chord sag of a face behind the mirror
 
 
 class BackwardPart:
@@ -38,11 +38,11 @@ class BackwardPart:
     Attributes
     ----------
     chosen : (m,) bool
-        Triangles of the mirror that are sampled; the others only hide them.
+        True for mirror triangles that are sampled; the others only occlude them.
     rays : int
-        That were traced.
+        Number of rays traced.
     counts : dict
-        Pixels of the mirror that are sampled, and of those the ones that see a mirror still after the last bounce.
+        Number of sampled pixels of the mirror, and of those that still see a mirror after the last bounce; the depth.
     """
 
     def __init__(self, view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings) -> None:
@@ -74,7 +74,7 @@ class BackwardPart:
         return self.lattice.drawn(positions, self.mirror.triangles)
 
     def _places(self, number: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the triangles (n,) that points of the lattice see, and the places (3, n) on them."""
+        """Return the mirror triangles (n,) that lattice points `number` (n,) see, and the places (3, n) on them."""
         face, weights = (part[..., number] for part in self.drawn)
         corners = self.mirror.positions[self.mirror.triangles[face]]
         return face, np.einsum("kn,nki->in", weights, corners)
@@ -92,7 +92,7 @@ class BackwardPart:
         return self.met.mirror_tree if self.mirror is self.met.mirrors else SceneTree.of_ordered(self.mirror)
 
     def faces(self) -> tuple[Paths, np.ndarray, CellFaces]:
-        """Return vertices as paths, where they lie in the picture (n, 2), and the faces on them."""
+        """Compute the faces: return their vertices as paths, the vertices' pixel positions (n, 2), and the faces."""
         lattice = self.lattice
         width, height = lattice.size
         number = np.flatnonzero(self.drawn[0] >= 0)
@@ -132,14 +132,17 @@ class BackwardPart:
         return replace(paths, source=np.where(covered, NOTHING, paths.source)), left
 
     def _keys(self, paths: Paths) -> np.ndarray:
-        """Return what paths show: a triangle, after so many mirrors."""
+        """Return a key (n,) for each path that combines its source triangle and its number of bounces."""
         return np.where(paths.source >= 0, paths.source * (self.depth + 1) + paths.bounces, NOTHING)
 
     def source(self, key: np.ndarray) -> np.ndarray:
         return key // (self.depth + 1)
 
     def _sides(self, at: np.ndarray, key: np.ndarray, axis: int) -> tuple[tuple, Sides]:
-        """Return where sides along an axis lie whose ends see different things, rows and columns, and the sides."""
+        """Find lattice sides along an axis whose ends have different keys.
+
+        Return the rows and columns (m,) of their starts, and the sides.
+        """
         height, width = key.shape
         end = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
         start = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
@@ -153,8 +156,16 @@ class BackwardPart:
         return where, Sides(sample(0), sample(1), sample(-1), sample(2))
 
     def _on_outlines(self, side: Sides, paths: Paths, spots: np.ndarray, key: np.ndarray, where: tuple, axis: int):
-        """Return the vertices on outlines: of what is seen at the start of the sides and at the end the sides that have
-        one, the paths and places in the picture."""
+        """Place vertices where outlines cross lattice sides.
+
+        Returns
+        -------
+        share : (m,) float64
+            Place of the outline along each side, from 0 to 1.
+        first, second : tuple
+            For what is seen at the start, and at the end, of the sides: the sides (k,) with a vertex, the vertices as
+            paths, and their pixel positions (k, 2).
+        """
         keys = self._keys(paths)
         share, doubtful = crossings(side, paths, keys, self.met)
         step = self.lattice.step * (np.array((0.0, 1.0)) if axis == 0 else np.array((1.0, 0.0)))
@@ -180,7 +191,9 @@ class BackwardPart:
         return share, *results
 
     def _looked(self, spots: np.ndarray) -> tuple[np.ndarray, Paths, np.ndarray]:
-        """Return which places (n, 2) in the picture see the sampled mirror, and of those the paths and their keys."""
+        """Trace rays at `spots` (n, 2) in pixels; return the indices (k,) of spots that see the sampled mirror, their
+        paths, and the paths' keys (k,).
+        """
         origin, ray = (given.T for given in self.view.rays(spots))
         face, distance = first_of_many(self.tree, origin, ray)
         seen = np.flatnonzero((face >= 0) & self.chosen[face])
@@ -188,7 +201,7 @@ class BackwardPart:
         return seen, paths, self._keys(paths)
 
     def _moved(self, paths: Paths, spots: np.ndarray) -> Paths:
-        """Return the paths seen at other places (n, 2) in the picture, as far from the eye's plane."""
+        """Return the paths moved to other `spots` (n, 2) in pixels; their depth from the eye stays the same."""
         origin, ray = (given.T for given in self.view.rays(spots))
         forward = self.view.forward[:, None]
         depth = dot(paths.place - origin, forward) / dot(ray, forward)
@@ -196,7 +209,7 @@ class BackwardPart:
         return replace(paths, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
 
     def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces) -> tuple[Paths, np.ndarray]:
-        """Return the vertices in the middles of cells, and where they lie in the picture."""
+        """Return the vertices in the middles of cells as paths, and their pixel positions (k, 2)."""
         crossed = cells.around >= 0
         spot = (spots[cells.around] * crossed[:, :, None]).sum(axis=1) / np.maximum(crossed.sum(axis=1), 1)[:, None]
         one, other = (paths.select(end) for end in cells.middles.T)
@@ -209,8 +222,11 @@ class BackwardPart:
         return self._moved(middle, spot), spot
 
     def _rough(self, paths: Paths, at: np.ndarray, key: np.ndarray) -> np.ndarray:
-        """Return by what share of the tolerance two faces of two steps show a point beside its place, or of their room
-        before the mirror lie behind it, at each point of the lattice; 0 where neighbours see something else."""
+        """Estimate at each point of the lattice the error of faces two steps long, as a share of the tolerance.
+
+        The error is the larger one of two: the deviation of the image, and the chord sag behind the mirror as a share
+        of the gap of layers. It is 0 if the neighbours have other keys. Return an array of the shape of `key`.
+        """
         view, rough = self.view, np.zeros(key.shape)
         inner = key[1:-1, 1:-1]
         same = {(row, column): (key[1 + row:key.shape[0] - 1 + row, 1 + column:key.shape[1] - 1 + column] == inner)

@@ -1,4 +1,4 @@
-"""Faces over cells, which no vertex of one cell lies beside in another one: there are no T-junctions."""
+"""Faces over lattice cells without T-junctions: vertices on a cell's sides belong to the faces on both sides."""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -8,7 +8,7 @@ import numpy as np
 
 from .cells import AROUND, Cells, Labels
 
-BEYOND = ((-1, 0), (0, 1), (1, 0), (0, -1))     # rows and columns to the cells beyond each side
+BEYOND = ((-1, 0), (0, 1), (1, 0), (0, -1))     # row and column offsets to the cells across each side
 
 
 @dataclass(frozen=True)
@@ -17,12 +17,12 @@ class CellFaces:
 
     Attributes
     ----------
-    faces : (m, 3) int64, vertices; behind all others those in the middles of cells
-    key : (m,) int64, what each shows
+    faces : (m, 3) int64, vertices; the k vertices in the middles of cells have the highest indices
+    key : (m,) int64, key of the source triangle and bounces that each face shows
     middles : (k, 2) int64
-        For each vertex in the middle of a cell the two on the outlines of what it shows there.
+        For each vertex in the middle of a cell, two vertices on the outlines of the same source around it.
     around : (k, 4) int64
-        Up to four vertices on outlines at the cell's sides, -1 for none; the new one lies in the middle of them.
+        Up to four vertices on outlines at the cell's sides, -1 for none; the new one lies at their mean.
     """
 
     faces: np.ndarray
@@ -32,7 +32,7 @@ class CellFaces:
 
 
 def faces_of_cells(labels: Labels, divided: list[Cells], vertices: int) -> CellFaces:
-    """Build the faces over all cells, on so many `vertices` and new ones in the middles of cells."""
+    """Build the faces over all cells; new vertices in the middles of cells are numbered from `vertices` on."""
     used = np.zeros(labels.key.shape, dtype=bool)
     for cells in divided:
         for row in (0, cells.side):
@@ -53,7 +53,7 @@ def faces_of_cells(labels: Labels, divided: list[Cells], vertices: int) -> CellF
 
 
 class _Ring:
-    """What lies round cells of one size: points and, on the sides between these, vertices on outlines."""
+    """Lattice points around cells of one size, and the vertices on outlines between these points."""
 
     def __init__(self, labels: Labels, cells: Cells, used: np.ndarray) -> None:
         self.labels, self.cells, self.used, side = labels, cells, used, cells.side
@@ -64,7 +64,7 @@ class _Ring:
         corner = np.zeros(4 * side, dtype=bool)
         corner[::side] = True
         self.count = self.change.sum(axis=1)
-        # no corners of others on the sides, and no outlines that meet
+        # plain cells have no corners of smaller cells on their sides, and at most one outline
         self.plain = ~(self.taken & ~corner).any(axis=1) & (self.count <= 2)
 
     def select(self, chosen: np.ndarray) -> _Ring:
@@ -72,11 +72,11 @@ class _Ring:
         return _Ring(self.labels, Cells(cells.side, cells.rows[chosen], cells.columns[chosen]), self.used)
 
     def whole_polygons(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield faces over cells that have no vertices but their corners and those of one outline, and their keys."""
+        """Yield faces (m, 3) over plain cells and their keys (m,); such cells have only corners and one outline."""
         side, none = self.cells.side, self.count == 0
         corner, key = self.node[:, ::side], self.key[:, ::side]
         yield np.concatenate((corner[none][:, [0, 1, 2]], corner[none][:, [0, 2, 3]])), np.tile(key[none, 0], 2)
-        # on each side of the cell the vertices on the outline that crosses it
+        # find on each side of the cell the vertices of the outline that crosses it
         leaving, arriving = (values.reshape(len(values), 4, side).max(axis=2)
                              for values in (self.leaving, self.arriving))
         change = self.change.reshape(len(key), 4, side).any(axis=2)
@@ -88,17 +88,25 @@ class _Ring:
                     chosen &= ~change[:, step]
                 some = np.flatnonzero(chosen)
                 polygon = [arriving[some, first - 1], *(corner[some, step] for step in run), leaving[some, run[-1]]]
-                # from a corner, so that no face is a sliver along an outline
+                # build the fan from a corner, so that no face is a sliver along an outline
                 hub = len(polygon) // 2
                 polygon = polygon[hub:] + polygon[:hub]
                 for second, third in zip(polygon[1:], polygon[2:]):
                     yield np.column_stack((polygon[0], second, third)), key[some, first]
 
     def round_middles(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return faces round a vertex in the middle of each cell, one for each thing that it shows, and their keys; of
-        new such vertices, from the number `vertices` on, what `CellFaces` tells."""
+        """Build fans around new vertices in the middle of each cell, one vertex for each key in the cell.
+
+        The new vertices are numbered from `vertices` on.
+
+        Returns
+        -------
+        faces : (m, 3) int64
+        key : (m,) int64
+        middles, around : (k, 2) and (k, 4) int64, of the new vertices, as in `CellFaces`
+        """
         count, size = self.node.shape
-        # round each cell: a point, the outline's end there, the next one's begin, and so on
+        # order around each cell: a point, the outline vertex after it, the outline vertex before the next point, ...
         node = np.stack((np.where(self.taken, self.node, -1), np.where(self.change, self.leaving, -1),
                          np.where(self.change, self.arriving, -1)), axis=2).reshape(count, 3 * size)
         key = np.stack((self.key, self.key, np.roll(self.key, -1, axis=1)), axis=2).reshape(count, 3 * size)
@@ -106,7 +114,7 @@ class _Ring:
         cell, spot = np.nonzero(node >= 0)
         node, key, kind = node[cell, spot], key[cell, spot], kind[spot]
         begins = kind == 2
-        # runs are numbered by their begins; what lies before the first one of a cell belongs to its last
+        # number the runs of one key by their first vertex; vertices before the first run belong to the cell's last run
         run = np.cumsum(begins) - 1
         runs_before = np.searchsorted(cell[begins], np.arange(count + 1))
         per_cell = np.diff(runs_before)
@@ -130,10 +138,10 @@ class _Ring:
         return faces, key[open_], ends, crossed[cell[begins]]
 
     def meeting_outlines(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return the same as `round_middles` over cells of one step in which several outlines meet.
+        """Build faces over cells of one step in which several outlines meet; return the same as `round_middles`.
 
-        Between two such cells the outline goes straight from middle to middle. A point with such cells all round it,
-        that sees what no point beside it sees, is shown by a square.
+        Between two such cells the outline is a straight line from middle to middle. A square around a point shows its
+        key if all four cells there are of this kind and none of the neighbouring points has that key.
         """
         change, count = self.change, len(self.cells)
         run = np.cumsum(np.roll(change, 1, axis=1), axis=1) - 1
@@ -151,7 +159,10 @@ class _Ring:
         return faces, keys, ends, around
 
     def _round_hubs(self, hub: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield faces over cells of one step, with middle vertices `hub` (n, 4) for each corner, and their keys."""
+        """Yield faces (m, 3) over cells of one step, and their keys (m,).
+
+        `hub` (n, 4) holds the middle vertex for the key at each corner of each cell, -1 for none.
+        """
         shape, (rows, columns), change = self.labels.key.shape, (self.cells.rows, self.cells.columns), self.change
         middle = np.full((4, *shape), -1)
         meeting = np.zeros(shape, dtype=bool)
@@ -164,7 +175,7 @@ class _Ring:
 
         beyond = [(np.maximum(rows + row, 0), np.maximum(columns + column, 0)) for row, column in BEYOND]
         straight = np.stack([change[:, k] & meeting[at] for k, at in enumerate(beyond)], axis=1)
-        # which of the lattice's points have squares of their own
+        # count for each lattice point its cells with straight outlines on both sides: with four, it gets a square
         alone = np.zeros(shape, dtype=np.int64)
         for k, (row, column) in enumerate(AROUND):
             np.add.at(alone, (rows + row, columns + column), straight[:, k] & straight[:, k - 1])
@@ -175,7 +186,7 @@ class _Ring:
             yield faces(hub[:, k], self.node[:, k], self.leaving[:, k], key=own, where=bent)
             yield faces(hub[:, following], self.arriving[:, k], self.node[:, following], key=self.key[:, following],
                         where=bent)
-            # in the other cell at this side the same corner is the third one on
+            # this corner's number in the cell across this side is (k + 3) % 4
             across = middle[(k + 3) % 4][beyond[k]]
             several = alone[rows + row, columns + column] < 4
             yield faces(self.node[:, k], across, hub[:, k], key=own, where=straight[:, k] & several)

@@ -1,29 +1,30 @@
-"""Cells of a lattice: squares, as large as what they show is even, of which an outline may cut one straight in two."""
+"""Cells of a lattice: squares of adaptive size, which at most one straight outline crosses."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
 
-LARGEST = 4     # halvings of the largest cell: sixteen steps along its side
-LARGEST_CUT = 3     # the same of those that an outline cuts
-AROUND = ((0, 0), (0, 1), (1, 1), (1, 0))   # rows and columns of a cell's corners, counterclockwise
+LARGEST = 4     # base-2 logarithm of the largest cell's side: sixteen lattice steps
+LARGEST_CUT = 3     # the same for cells that an outline crosses
+AROUND = ((0, 0), (0, 1), (1, 1), (1, 0))   # row and column offsets of a cell's corners, counterclockwise
 
 
 @dataclass(frozen=True)
 class Labels:
-    """What the points of a lattice see.
+    """Keys, vertices and outlines at the points of a lattice.
 
     Attributes
     ----------
-    key : (rows, columns) int64, equal where the same thing is seen, -1 where nothing is
-    node : (rows, columns) int64, the vertex at each point
+    key : (rows, columns) int64, equal for points that see the same source triangle after as many bounces, -1 for none
+    node : (rows, columns) int64, the vertex at each point, -1 for none
     right, up : (2, rows, columns) int64
-        Vertices on the sides to the next point to the right and up, on the outline of what is seen at this point and
-        of what is at the next; -1 where there is none.
-    right_share, up_share : (rows, columns) float64, where on these sides an outline lies, infinite where there is none
+        Vertices where an outline crosses the side to the next point to the right, and up: one vertex for the key of
+        this point, one for the key of the next point; -1 for none.
+    right_share, up_share : (rows, columns) float64
+        Place of the outline along these sides, from 0 to 1; infinite for none.
     rough : (rows, columns) float64
-        Share of the tolerance by which what two faces over a cell of two steps show at a point is beside its place.
+        Error of two faces over a cell of two steps, as a share of the tolerance.
     """
 
     key: np.ndarray
@@ -53,34 +54,37 @@ class Cells:
         return len(self.rows)
 
     def points(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return rows and columns (n, 4 side) of the lattice's points round each cell, counterclockwise."""
+        """Return rows and columns (n, 4 side) of the lattice's points around each cell, counterclockwise."""
         along, none, side = np.arange(self.side), np.zeros(self.side, dtype=np.int64), self.side
         return (self.rows[:, None] + np.concatenate((none, along, none + side, side - along)),
                 self.columns[:, None] + np.concatenate((along, none + side, side - along, none)))
 
     def sides(self, right: np.ndarray, up: np.ndarray) -> np.ndarray:
-        """Return (2, n, 4 side): of the values that lie on sides of the lattice, at both ends, those on the sides from
-        each of the `points` to the next one; counterclockwise, those at the ends where they begin first."""
+        """Gather values (2, n, 4 side) on the lattice sides around each cell, from each of the `points` to the next.
+
+        `right` and `up` (2, rows, columns) hold two values for each lattice side, at its start and at its end. The
+        result holds first the value at the end that comes first counterclockwise.
+        """
         rows, columns = self.points()
         side = self.side
         values = np.empty((2, len(self), 4 * side), dtype=right.dtype)
         for k, (where, ahead, back) in enumerate(((right, 0, 0), (up, 0, 0), (right, 1, 1), (up, 1, 1))):
             part = slice(k * side, (k + 1) * side)
-            # on the way back sides belong to the point where they end
+            # in the directions left and down, a side is stored at the point where it ends
             row, column = rows[:, part] - (back if k == 3 else 0), columns[:, part] - (back if k == 2 else 0)
             values[0, :, part], values[1, :, part] = where[ahead, row, column], where[1 - ahead, row, column]
         return values
 
 
 def cells_of(labels: Labels, step: float, straight: float) -> list[Cells]:
-    """Divide the lattice into cells, the largest first; those that show nothing are left out.
+    """Divide the lattice into cells, the largest first; cells without a key at any corner are left out.
 
     Parameters
     ----------
     step : float
-        Of the lattice, in pixels.
+        Distance of lattice points, in pixels.
     straight : float
-        Pixels that an outline may lie beside a straight line through a cell.
+        Largest distance of an outline from a straight line through a cell, in pixels.
     """
     key = labels.key
     crossed = np.isfinite(labels.right_share), np.isfinite(labels.up_share)
@@ -105,7 +109,7 @@ def cells_of(labels: Labels, step: float, straight: float) -> list[Cells]:
 
 
 def _block_max(values: np.ndarray, rows: int, columns: int, side: int) -> np.ndarray:
-    """Return the largest value at the points of each block of `side` steps, its border among them."""
+    """Return the largest value (rows, columns) at the points of each block of `side` steps, including its border."""
     found = values[:rows * side, :columns * side].reshape(rows, side, columns, side).max(axis=(1, 3))
     right = values[:rows * side, side:columns * side + 1:side].reshape(rows, side, columns).max(axis=1)
     top = values[side:rows * side + 1:side, :columns * side].reshape(rows, columns, side).max(axis=2)
@@ -114,7 +118,11 @@ def _block_max(values: np.ndarray, rows: int, columns: int, side: int) -> np.nda
 
 def _undivided(cells: Cells, labels: Labels, crossed: tuple[np.ndarray, np.ndarray], cut: bool,
                straight: float) -> Cells:
-    """Return the cells that no outline crosses, and, where they may be `cut`, those that one crosses straight."""
+    """Return the cells that no outline crosses, and, if `cut`, the cells that one straight outline crosses.
+
+    `crossed` says which lattice sides to the right, and up, an outline crosses, (rows, columns) bool each. `straight`
+    is the largest distance of the outline from a straight line, in lattice steps.
+    """
     side, around = cells.side, np.zeros(len(cells), dtype=np.int64)
     every, offsets = np.zeros(len(cells), dtype=np.int64), []
     for which, where in enumerate(crossed):
@@ -150,7 +158,10 @@ def _undivided(cells: Cells, labels: Labels, crossed: tuple[np.ndarray, np.ndarr
 
 
 def _ring_spots(cells: Cells, labels: Labels) -> np.ndarray:
-    """Return where outlines cross the sides round cells, (n, 4 side, 2) columns and rows from their first corners."""
+    """Return the crossings (n, 4 side, 2) of outlines with the lattice sides around cells, infinite for none.
+
+    Coordinates are columns and rows, relative to the first corner of each cell.
+    """
     share = cells.sides(np.stack((labels.right_share,) * 2), np.stack((labels.up_share,) * 2))[0]
     rows, columns = cells.points()
     row, column = (rows - cells.rows[:, None]).astype(float), (columns - cells.columns[:, None]).astype(float)

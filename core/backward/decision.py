@@ -1,4 +1,4 @@
-"""Which parts of a mirror are made backwards: those whose triangles are too small for cameras of their own."""
+"""Selection of the mirror parts made backwards: parts whose triangles are too small for one camera each."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -8,30 +8,31 @@ import numpy as np
 from ..geometry import TriangleMesh, connected
 from .lattice import Lattice
 
-# pixels for each of a part's triangles, seen or not, up to which one ray for each pixel is less work; of parts that see
-# mirrors, which takes cameras many times as long
+# pixels per triangle of a part, visible or not, below which one ray per pixel is less work than cameras; the second is
+# for parts that see mirrors, which cost cameras much more time
 FEW_PIXELS, FEW_IF_MIRRORS = 4.0, 32.0
-MOST_POINTS = 1 << 21   # of a lattice, from which on parts are told apart on a coarser one
-SPARSE = 8      # of the lattice's points along both axes one is asked whether it sees a mirror
-SEEN = 0.02     # share of a part that sees mirrors, from which on it is one of these
+MOST_POINTS = 1 << 21   # largest lattice for this selection; larger ones are made coarser
+SPARSE = 8      # lattice points per tested point, along both axes, in the test if a part sees mirrors
+SEEN = 0.02     # share of the tested points that see a mirror, above which the part counts as seeing mirrors
 
 
 def may_have_small_parts(mirror: TriangleMesh, lattice: Lattice) -> bool:
-    """Return False for a mirror whose box in the picture holds so many pixels that none of its parts is looked at."""
+    """Return False if the mirror's box in the picture has too many pixels per triangle for any part to be small."""
     pixels = lattice.size[0] * lattice.size[1] * lattice.step**2
     return pixels < 2.0 * FEW_IF_MIRRORS * len(mirror.triangles)
 
 
 def small_parts(mirror: TriangleMesh, lattice: Lattice, face: np.ndarray,
                 sees_mirrors: Callable[[np.ndarray], np.ndarray] | None) -> np.ndarray:
-    """Return the triangles (m,) of the connected parts of a mirror that are small against a pixel.
+    """Return True (m,) for triangles of connected parts of the mirror that have few pixels per triangle.
 
     Parameters
     ----------
     face : (n,) int64
         The triangle that is seen at each point of the lattice, -1 for none.
     sees_mirrors : callable, optional
-        Tells of points (k,) of the lattice where a mirror is seen in the mirror; None if that is the end.
+        Takes points (k,) of the lattice and returns True (k,) for those that see a mirror in the mirror. None if the
+        depth is one.
     """
     part = connected(mirror.triangles)
     triangles = np.bincount(part)

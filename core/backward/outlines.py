@@ -1,8 +1,8 @@
-"""Outlines between the points of a lattice: where on the side from one point to the next what is seen changes.
+"""Outlines between the points of a lattice: places on lattice sides at which the visible triangle changes.
 
-Between two points that see the same part of a mirror rays change linearly, as in a three-ray camera. So where a ray
-between them leaves a triangle follows from its barycentric coordinates at both, without any more rays. Where the mirror
-itself ends, or its rays leap, a few more rays halve the side.
+Between two points on the same part of a mirror, rays change linearly, as in a three-ray camera. So the place where a
+ray leaves a triangle follows from the barycentric coordinates at both points, without more rays. At the mirror's border
+and where rays jump, the side is bisected with a few more rays.
 """
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from ..culling import SceneAndMirrors
 from ..geometry import SceneFrames, cross, distinct, dot, norm, others, unit
 from .paths import NOTHING, Paths
 
-HALVINGS = 4    # of a side that more rays are sent through: to within a thirtieth of it
-NEAREST = 0.01  # share of a side: outlines keep so far from the lattice, so that pixels see what their middles do
-LEAP = 4.0      # times what rays, and places, change by beside a side, from which on they leap along it
-LEVEL = 1e-3    # radians: rays that differ by less do not leap
+HALVINGS = 4    # bisection steps on a side: the outline is exact to a thirtieth of its length
+NEAREST = 0.01  # share of a side: smallest distance of outlines from lattice points, so that pixel centres stay right
+LEAP = 4.0      # rays or places jump along a side if they change more than this multiple of the change beside it
+LEVEL = 1e-3    # radians: rays that differ by less do not jump
 
 
 @dataclass(frozen=True)
 class Sides:
-    """Sides (m) of a lattice between points that see different things.
+    """Sides (m) of a lattice between points with different keys.
 
     Attributes
     ----------
-    start, end : (m,) int64, samples, -1 where the mirror is not seen
-    before, behind : (m,) int64, the samples before the start and behind the end, -1 likewise
+    start, end : (m,) int64, samples at the ends, -1 where the mirror is not seen
+    before, behind : (m,) int64, the samples one step before the start and one after the end, -1 for none
     """
 
     start: np.ndarray
@@ -42,15 +42,17 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
 
     Parameters
     ----------
+    paths : Paths
+        The n samples.
     key : (n,) int64
-        Of each path: equal ones see the same thing.
+        Key of each path: equal for the same source triangle and number of bounces.
 
     Returns
     -------
     share : (m,) float64
-        Of the way from start to end.
+        Place of the outline along each side, 0 at the start, 1 at the end.
     doubtful : (m,) bool
-        Sides of which it is not known.
+        True for sides where it could not be computed.
     """
     doubtful = (sides.start < 0) | (sides.end < 0)
     doubtful |= paths.bounces[sides.start] != paths.bounces[sides.end]
@@ -60,7 +62,7 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
     first, own_first, wrong_first, on_first = _left(start, end, met)
     second, own_second, wrong_second, on_second = _left(end, start, met)
     second = 1.0 - second
-    # both go on where one stands before the other: the nearer one's end is the outline
+    # if one triangle is in front of the other, both overlap: the end of the nearer one is the outline
     middle = np.clip(0.5 * (first + second), 0.0, 1.0)
     with np.errstate(invalid="ignore"):
         nearer = own_first(middle) <= own_second(middle)
@@ -68,7 +70,7 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
     found = np.where(second < first, np.where(nearer, first, second), 0.5 * (first + second))
     found = np.where(~shown_second, first, np.where(~shown_first, second, found))
     unclear = (wrong_first & shown_first) | (wrong_second & shown_second) | ~np.isfinite(found)
-    # the body goes on behind the triangle's side, nobody knows how far
+    # if another triangle continues across the crossed side, the outline lies somewhere beyond
     unclear |= (on_first & ~shown_second) | (on_second & ~shown_first)
     unclear |= (found <= 0.0) | (found >= 1.0)
     share[known] = np.clip(np.nan_to_num(found, nan=0.5), NEAREST, 1.0 - NEAREST)
@@ -77,7 +79,7 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
 
 
 def between(start: Paths, end: Paths, share: np.ndarray, met: SceneAndMirrors) -> Paths:
-    """Return paths a `share` (m,) of the way from `start` to `end`, which end where those at the start do."""
+    """Interpolate paths at `share` (m,) from `start` to `end`; they end on the source triangles of the start."""
     def mixed(one: np.ndarray, other: np.ndarray) -> np.ndarray:
         return one + share * (other - one)
 
@@ -95,21 +97,24 @@ def between(start: Paths, end: Paths, share: np.ndarray, met: SceneAndMirrors) -
 def halved(start: Paths, end: Paths, keys: tuple[np.ndarray, np.ndarray],
            look: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, Paths, np.ndarray]]
            ) -> tuple[np.ndarray, Paths, Paths]:
-    """Halve sides by more rays.
+    """Find outlines on sides by bisection with more rays.
 
     Parameters
     ----------
+    start, end : Paths
+        Paths at the ends of the m sides.
     keys : (m,) int64 each
-        Of what is seen at the start and at the end.
+        Keys at the start and at the end.
     look : callable
-        Of sides (k,) and shares (k,) of the way along them; returns which of these see the mirror, and of those the
-        paths and their keys.
+        Takes sides (k,) and places (k,) along them from 0 to 1. Returns the indices of rays that see the mirror, their
+        paths, and the paths' keys.
 
     Returns
     -------
     share : (m,) float64
+        Place of the outline along each side.
     first, second : Paths
-        The last ones found before and behind the outline, that see what is seen at the start and at the end.
+        The last paths found before the outline with the key of the start, and after it with the key of the end.
     """
     count = len(keys[0])
     low, high, every = np.zeros(count), np.ones(count), np.arange(count)
@@ -121,7 +126,7 @@ def halved(start: Paths, end: Paths, keys: tuple[np.ndarray, np.ndarray],
         seen, paths, key = look(every, middle)
         own = np.full(count, NOTHING)
         own[seen] = key
-        # where nothing is seen at one end, all that is seen belongs to the other one
+        # if one end sees nothing, any ray that sees something counts as being on the other end's side
         empty = np.minimum(*keys) < 0
         before = np.where(empty, (own >= 0) == (keys[0] >= 0), own == keys[0])
         low, high = np.where(before, middle, low), np.where(before, high, middle)
@@ -135,7 +140,7 @@ def halved(start: Paths, end: Paths, keys: tuple[np.ndarray, np.ndarray],
 
 
 def joined(parts: list[Paths]) -> Paths:
-    """Return all paths as one, whatever number of mirrors they meet."""
+    """Concatenate paths; arrays with one row per mirror are padded to the largest number of mirrors."""
     most = max(len(one.later) for one in parts)
     return Paths.joined([replace(
         one, later=np.pad(one.later, ((0, most - len(one.later)), (0, 0)), constant_values=-1),
@@ -144,9 +149,19 @@ def joined(parts: list[Paths]) -> Paths:
 
 def _left(start: Paths, end: Paths, met: SceneAndMirrors
           ) -> tuple[np.ndarray, Callable[[np.ndarray], np.ndarray], np.ndarray, np.ndarray]:
-    """Return from where on, as a share of the way from `start` to `end`, a triangle at the start is not met any more, 1
-    where it is met on all of it; the distance of its plane along the way; where none of this can be told; and where
-    another triangle goes on behind the side that is crossed."""
+    """Find where rays, moved from `start` to `end`, leave the source triangle that they hit at the start.
+
+    Returns
+    -------
+    share : (m,) float64
+        Place from 0 to 1 at which the ray leaves the triangle; 1 if it hits it all the way.
+    length : callable
+        Takes places (m,) from 0 to 1 and returns the path lengths (m,) to the triangle's plane.
+    wrong : (m,) bool
+        True where these values are not valid.
+    goes_on : (m,) bool
+        True where another triangle continues across the crossed side.
+    """
     shown = start.source >= 0
     source = np.maximum(start.source, 0)
     found, column = distinct(source)
@@ -170,7 +185,7 @@ def _left(start: Paths, end: Paths, met: SceneAndMirrors
 
 
 def _leap(sides: Sides, paths: Paths) -> np.ndarray:
-    """Return True for sides (m,) along which rays, or the places where they leave, change far more than beside them."""
+    """Return True (m,) for sides along which rays, places or origins change far more than on neighbouring sides."""
     known = np.stack((sides.before, sides.start, sides.end, sides.behind)) >= 0
     found = np.zeros(len(sides.start), dtype=bool)
     for values, least in ((paths.ray, LEVEL), (paths.place, 0.0), (paths.origin, 0.0)):

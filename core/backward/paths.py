@@ -1,4 +1,4 @@
-"""Light paths traced backwards: from places on a mirror, mirror after mirror, to what they end at."""
+"""Light paths traced backwards: from places on a mirror, over further mirrors, to a diffuse triangle."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from ..result import DEPTH, GAP, halfway
 from ..support import breathe
 from ..views import View
 
-NOTHING = -1    # `source` of paths that end at nothing, or at a mirror after the last bounce
+NOTHING = -1    # `source` of paths that hit nothing, or a mirror after the last bounce
 
 
 @dataclass(frozen=True)
@@ -21,15 +21,15 @@ class Paths(ColumnArrays):
 
     Attributes
     ----------
-    face : (n,) int64, the first mirror's triangle
-    place : (3, n) float64, where the eye sees the first mirror
-    origin, ray : (3, n) float64, where the path leaves the last mirror, and the unit direction
-    source : (n,) int64, the diffuse triangle that it ends at, or `NOTHING`
-    point : (3, n) float64, where it ends
-    length : (n,) float64, from the first mirror to the last one
-    bounces : (n,) int64, mirrors that it meets
-    later : (b, n) int64, triangles of all mirrors after the first one, -1 behind the last
-    normal : (b + 1, 3, n) float64, unit normals of all its mirrors, 0 behind the last
+    face : (n,) int64, triangle of the first mirror
+    place : (3, n) float64, place on the first mirror that the eye sees, in world space
+    origin, ray : (3, n) float64, place on the last mirror, and the unit direction of the ray that leaves it
+    source : (n,) int64, the diffuse triangle at the end, or `NOTHING`
+    point : (3, n) float64, end of the path in world space
+    length : (n,) float64, path length from the first mirror to the last one
+    bounces : (n,) int64, number of mirrors
+    later : (b, n) int64, triangles of the mirrors after the first one, -1 after the last
+    normal : (b + 1, 3, n) float64, unit normals of all mirrors of the path, 0 after the last
     """
 
     face: np.ndarray
@@ -46,13 +46,13 @@ class Paths(ColumnArrays):
 
 @dataclass(frozen=True)
 class PathTracer:
-    """What paths from an eye meet.
+    """Tracer of paths from the eye over mirrors.
 
     Attributes
     ----------
     view : View
     surface : MirrorSurface, of the first mirror
-    met : SceneAndMirrors
+    met : SceneAndMirrors, triangles that rays may hit
     """
 
     view: View
@@ -66,15 +66,15 @@ class PathTracer:
         Parameters
         ----------
         depth : int
-            Mirrors that are met at most.
+            Largest number of mirrors of a path.
         enough : float
-            Share of the paths that may meet one mirror more and be left at that.
+            Stop early if at most this share of the paths hits one more mirror.
 
         Returns
         -------
         paths : Paths
         left : (n,) bool
-            Those that meet one mirror more.
+            True for paths that hit one more mirror.
         """
         met, count = self.met, len(face)
         way = self.view.directions(place.T).T
@@ -111,7 +111,9 @@ class PathTracer:
                      np.stack(later) if later else np.zeros((0, count), dtype=np.int64), np.stack(normals)), left
 
     def covered(self, place: np.ndarray) -> np.ndarray:
-        """Return True for places (3, n) on a mirror before which the scene is so near that layers would cover it."""
+        """Return True (n,) for places (3, n) on a mirror with scene objects so close in front that layers would hide
+        them.
+        """
         back = -self.view.directions(place.T).T
         away = norm(back)
         size = np.full(len(away), np.ptp(place, axis=1).max()) if self.view.orthographic else away
@@ -119,7 +121,7 @@ class PathTracer:
 
 
 def _reflected(surface: MirrorSurface, face: np.ndarray, place: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """Return the rays (3, n) that leave triangles where they are met along a way (3, n), as Cycles bends them."""
+    """Return the reflected rays (3, n) at `place` (3, n) for arriving directions `way` (3, n), bent as in Cycles."""
     uv = surface.coordinates(face, place)
     ray = surface.unbent(face, uv, way)
     surface.lift(face, uv, ray, way)
@@ -127,6 +129,8 @@ def _reflected(surface: MirrorSurface, face: np.ndarray, place: np.ndarray, way:
 
 
 def _upper_sides(surface: MirrorSurface, face: np.ndarray, ray: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the planes (n) of triangles: a place on each, and its normal on the side that rays (3, n) leave."""
+    """Return the planes of triangles `face` (n,): a place (3, n) on each, and its unit normal (3, n) on the side of the
+    leaving rays (3, n).
+    """
     normal = surface.face_normal[:, face]
     return surface.a[:, face], normal * np.sign(dot(ray, normal))

@@ -1,7 +1,7 @@
-"""General three-ray cameras on the mirror, and the true map from places on it to the rays that leave.
+"""General three-ray cameras on the mirror, and the true reflection map from places on it to reflected rays.
 
-In come a view and a mirror; out come cameras whose interpolated rays stray from the true ones by less
-than the tolerance. C. Mei, V. Popescu, E. Sacks, GRAPP 2007; normals are kept above the surface as Cycles does.
+Input are a view and a mirror. Output are cameras whose interpolated rays deviate from the true ones by less than the
+tolerance. C. Mei, V. Popescu, E. Sacks, GRAPP 2007; rays are kept above the flat surface as in Cycles.
 """
 from .bounced_map import BouncedMap
 from .camera_splitting import in_picture, ray_numbers, split_cameras, true_rays, with_pieces

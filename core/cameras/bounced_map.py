@@ -1,8 +1,8 @@
-"""The reflection map of a mirror seen in mirrors: chains of mirror triangles, one bounce more than the map before.
+"""The reflection map of a mirror seen in mirrors: chains of mirror triangles, one bounce more than the previous map.
 
-A chain is a face of the map before and a triangle of the mirrors that its rays arrive at. The ray arrives at O + s R of
-the map before, as long as its whole way from the eye, so that chains of flat mirrors are exact here as well: they look
-from one virtual eye.
+A chain is a face of the previous map and a mirror triangle that its rays hit. The ray hits the triangle at O + s R of
+the previous map. Its direction vector is as long as the whole path from the eye, so that chains of flat mirrors are
+exact too: they have one virtual eye.
 """
 from __future__ import annotations
 
@@ -14,19 +14,20 @@ from .reflection_map import ReflectionMap
 
 
 class BouncedMap(ReflectionMap):
-    """Rays that bounce once more.
+    """Reflection map of rays that bounce once more.
 
     Parameters
     ----------
     before : ReflectionMap
+        Map with one bounce less.
     surface : MirrorSurface
         All mirrors that may be seen in the mirrors.
     face_before : (k,) int64
-        For each chain, the face of the map before.
+        For each chain, the face of `before`.
     triangle : (k,) int64
-        For each chain, the triangle of `surface` that its rays arrive at.
+        For each chain, the triangle of `surface` that its rays hit.
     orthographic : bool
-        Whether the rays that arrive are unit vectors.
+        True if the arriving rays are unit vectors.
     """
 
     parallel = False
@@ -37,7 +38,7 @@ class BouncedMap(ReflectionMap):
         self.before, self.surface = before, surface
         self.face_before, self.triangle = face_before, triangle
         self.orthographic = orthographic
-        # how rays arrive at a triangle is known only in the place itself
+        # angles of incidence are not known per triangle: any ray may need to be lifted
         self.grazing = np.ones(len(triangle), dtype=bool)
 
     def first(self, face: np.ndarray) -> np.ndarray:
@@ -56,7 +57,10 @@ class BouncedMap(ReflectionMap):
         return self.before.spans(self.face_before[face])
 
     def _arriving(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where rays arrive, their direction as long as their whole way, and s of the map before."""
+        """Return the hit points (3, n) of rays on their triangles, their directions (3, n), and s (n,) of `before`.
+
+        The directions are as long as the whole path from the eye, or unit vectors if `orthographic`.
+        """
         origin, ray = self.before.leave(self.face_before[face], uv)
         s = self._distance(face, origin, ray)
         return origin + s * ray, ray if self.orthographic else (1.0 + s) * ray, s
@@ -64,7 +68,7 @@ class BouncedMap(ReflectionMap):
     def _distance(self, face: np.ndarray, origin: np.ndarray, ray: np.ndarray) -> np.ndarray:
         triangle = self.triangle[face]
         flat = self.surface.face_normal[:, triangle]
-        # the plane behind the ray's origin is seen by rounding alone, where both touch
+        # a negative distance is rounding, where the two mirrors touch
         return np.maximum(dot(self.surface.a[:, triangle] - origin, flat) / falling(flat, ray), 0.0)
 
     def leave(self, face: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -80,7 +84,7 @@ class BouncedMap(ReflectionMap):
 
     def met_later(self, face: np.ndarray, uv: np.ndarray) -> list[np.ndarray]:
         triangle = self.triangle[face]
-        # a corner a little beside its chain may meet the plane of a triangle seen edge on anywhere
+        # the ray of a corner slightly outside of its chain may hit the plane of an edge-on triangle far away
         on = drawn_in(self.surface.coordinates(triangle, self._arriving(face, uv)[0]))
         return [*self.before.met_later(self.face_before[face], uv), self.surface.places(triangle, on)]
 

@@ -1,4 +1,4 @@
-"""Splitting cameras, at the middles of their edges or into any pieces: new corners have the true map's rays again."""
+"""Splitting of cameras at edge midpoints or into given pieces. New corners get the rays of the true reflection map."""
 from __future__ import annotations
 
 import numpy as np
@@ -8,23 +8,23 @@ from ..support import portions
 from .reflection_map import ReflectionMap
 from .three_ray_cameras import Cameras
 
-WELD = 1e-9  # of the mirror's size: corners closer than this are one
-SAME_RAY = 1e-6  # radians: at a sharp edge of the mirror each side has rays of its own
-ROUNDING = 1e-12  # of its size: a thinner camera is seen edge on, by whatever rounding says
-BESIDE = 1.5  # times the picture: the border at which edges that reach far beyond it are split
-ON_BORDER = 1e-6  # of an edge's length
-CORNERS_AT_ONCE = 32768  # new ones: what their arrays take fits the cache
+WELD = 1e-9  # share of the mirror's size: closer corners are merged
+SAME_RAY = 1e-6  # radians: corners are merged only if their rays agree; at sharp edges of the mirror they differ
+ROUNDING = 1e-12  # relative volume: thinner cameras are edge-on, and the signs of their sides are rounding
+BESIDE = 1.5  # picture sizes: edges that reach far outside of the picture are split at this border
+ON_BORDER = 1e-6  # share of an edge's length: shorter parts inside of that border do not count
+CORNERS_AT_ONCE = 32768  # new corners per chunk, whose arrays fit the CPU cache
 
 
 def split_cameras(cameras: Cameras,
                   marked: np.ndarray) -> tuple[Cameras, np.ndarray, np.ndarray]:
-    """Cameras split along the `marked` (n, 3) edges, each from a corner to the next, on both sides of each edge.
+    """Split cameras at the midpoints of the `marked` (n, 3) bool edges 01, 12, 20, on both sides of each edge.
 
     Returns
     -------
-    cameras : Cameras, those in the picture
-    parent : (m,) int64, the camera that each lies in
-    new : (m,) bool, whether it is only a part of its parent
+    cameras : Cameras, parts that may lie in the picture
+    parent : (m,) int64, the old camera that each new one lies in
+    new : (m,) bool, True if the parent was split
     """
     ends, first, edge = shared_edges(cameras.corners)
     chosen = mask(len(ends), edge[marked])
@@ -35,8 +35,14 @@ def split_cameras(cameras: Cameras,
 
 def edge_middles(cameras: Cameras, ends: np.ndarray, first: np.ndarray,
                  share: np.ndarray | float = 0.5) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (3, e) halfway, or a `share` (e,) of the way, along edges `ends` (e, 2), and origins and directions of the
-    true rays there."""
+    """Return places (3, e) on edges of cameras, and the origins (3, e) and directions (3, e) of the true rays there.
+
+    Parameters
+    ----------
+    ends : (e, 2) int64, corners at the ends of the edges
+    first : (e,) int64, for each edge one camera and its side, as 3 * camera + side
+    share : (e,) float64 or float, place along each edge from 0 to 1
+    """
     mirror_map = cameras.mirror_map
     middles = (1.0 - share) * cameras.places[:, ends[:, 0]] + share * cameras.places[:, ends[:, 1]]
     face = cameras.face[first // 3]
@@ -45,8 +51,19 @@ def edge_middles(cameras: Cameras, ends: np.ndarray, first: np.ndarray,
 
 def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np.ndarray, origins: np.ndarray,
              rays: np.ndarray) -> tuple[Cameras, np.ndarray]:
-    """Cameras split at the `middles` (3, k) of the k `marked` of e edges, which have rays and their origins, and the
-    camera that each lies in; `edge` (n, 3) are the cameras' edges."""
+    """Split cameras at given places on their edges.
+
+    Parameters
+    ----------
+    marked : (e,) bool, the k edges to split
+    edge : (n, 3) int64, edges of the cameras
+    middles, origins, rays : (3, k) float64, new corners, and the origins and directions of their rays
+
+    Returns
+    -------
+    cameras : Cameras
+    parent : (m,) int64, the old camera that each new one lies in
+    """
     new = numbered(len(marked), marked, cameras.places.shape[1])
     parent, local = split(marked[edge])
     six = np.concatenate((cameras.corners, new[edge]), axis=1)[parent]
@@ -55,13 +72,19 @@ def split_at(cameras: Cameras, marked: np.ndarray, edge: np.ndarray, middles: np
 
 
 def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray, weights: np.ndarray) -> Cameras:
-    """The `whole` cameras (n,) and behind them pieces (m) of the cameras `parent`, with weights (3, 3, m) of their
-    corners, entry [i, k]: weight i of corner k. New corners are welded where place and ray agree."""
+    """Return the `whole` cameras, followed by m given pieces of cameras. New corners with the same place and ray merge.
+
+    Parameters
+    ----------
+    whole : (n,) bool, cameras to keep unsplit
+    parent : (m,) int64, camera that each piece lies in
+    weights : (3, 3, m) float64, entry [i, k] is the barycentric weight i of the piece's corner k in its parent
+    """
     mirror_map = cameras.mirror_map
     places = np.einsum("xjn,jkn->xkn", np.take(cameras.places, cameras.corners[parent].T, axis=1), weights)
     places, face = places.reshape(3, -1), np.tile(cameras.face[parent], 3)
     corner = np.empty(len(face), dtype=np.int64)
-    # the parents' own corners stay what they are, shared with the neighbours
+    # reuse the parents' corners, which neighbours share
     own, new = (np.flatnonzero((weights == 1.0).any(axis=0).ravel() == state) for state in (True, False))
     number, piece = own // max(len(parent), 1), own % max(len(parent), 1)
     corner[own] = cameras.corners[parent[piece], np.argmax(weights[:, number, piece], axis=0)]
@@ -79,12 +102,12 @@ def with_pieces(cameras: Cameras, whole: np.ndarray, parent: np.ndarray, weights
 
 
 def ray_numbers(rays: np.ndarray) -> np.ndarray:
-    """Whole numbers (3, n), the same for rays that go the same way."""
+    """Return integers (3, n) that are equal for `rays` (3, n) of the same direction, up to rounding."""
     return np.rint((unit(rays) + 1.0) / SAME_RAY).astype(np.int64)
 
 
 def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Origins and directions (3, n) of the rays that leave the mirror where places (3, n) on its faces are seen."""
+    """Return origins (3, n) and directions (3, n) of the map's rays at `places` (3, n) on the faces `face` (n,)."""
     origins, rays = np.empty_like(places), np.empty_like(places)
     for part in portions(len(face), CORNERS_AT_ONCE):
         origins[:, part], rays[:, part] = mirror_map.leave(face[part],
@@ -93,8 +116,11 @@ def true_rays(mirror_map: ReflectionMap, face: np.ndarray, places: np.ndarray) -
 
 
 def shares_in_picture(cameras: Cameras, ends: np.ndarray) -> np.ndarray:
-    """How far along edges `ends` (e, 2) each is best split: halfway, or, where more of it than half lies beside the
-    picture, at the picture's border, so that what is left has no ends far outside."""
+    """Return the place (e,) along each edge at which to split it, from 0 to 1.
+
+    The place is the midpoint. If more than half of the edge lies outside of the picture, it is the crossing with a
+    border around the picture, so that the inner part has no end far outside. `ends` (e, 2) are the edges' corners.
+    """
     clip = cameras.view.clip(cameras.places.T).T
     share = np.full(len(ends), 0.5)
     apart = BESIDE * clip[3] - np.abs(clip[:2]).max(axis=0) < 0.0
@@ -109,13 +135,17 @@ def shares_in_picture(cameras: Cameras, ends: np.ndarray) -> np.ndarray:
             last = np.where((start > 0.0) & (end < 0.0), np.minimum(last, crossing), last)
             last = np.where((start <= 0.0) & (end <= 0.0), -1.0, last)
     border = np.where(first > 1.0 - last, first, last)
-    # an edge that ends at the border has been split there
+    # an edge that only touches the border has been split there before
     share[out] = np.where((last - first > ON_BORDER) & (last - first < 0.5), border, 0.5)
     return share
 
 
 def in_picture(cameras: Cameras) -> np.ndarray:
-    """Which cameras may touch the picture: neither a side of the view's pyramid nor one of theirs parts them."""
+    """Return True (n,) for cameras that may overlap the picture.
+
+    A camera is outside if a plane of the view frustum or a plane through the eye and a side of the camera separates it
+    from the picture.
+    """
     view = cameras.view
     clip = view.clip(cameras.places.T)
     margin = 1.0 + 2.0 / np.array(view.resolution)
@@ -130,8 +160,17 @@ def in_picture(cameras: Cameras) -> np.ndarray:
 
 
 def _parted(clip: np.ndarray, corners: np.ndarray, margin: np.ndarray) -> np.ndarray:
-    """Whether one side of triangles with `corners` (n, 3) at homogeneous `clip` (3, c) has all of the picture beyond
-    it. That holds behind the eye too: a pixel is seen in the triangle where none of its weights is negative."""
+    """Return True (n,) for triangles with all of the picture on the outer side of one of their sides.
+
+    The test is also valid for corners behind the eye: a pixel shows the triangle if none of its barycentric weights is
+    negative.
+
+    Parameters
+    ----------
+    clip : (3, c) float64, homogeneous picture coordinates x, y, w of all corners
+    corners : (n, 3) int64, columns of `clip`
+    margin : (2,) float64, half width and half height of the picture in these coordinates
+    """
     a, b, c = (columns(clip, corner) for corner in corners.T)
     sides = np.stack([cross(b, c), cross(c, a), cross(a, b)])
     volume = dot(a, sides[0])

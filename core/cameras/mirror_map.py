@@ -1,6 +1,6 @@
-"""The true reflection map of one mirror: from a place on a flat mirror triangle to the ray that leaves it there.
+"""The true reflection map of one mirror: from a place on a flat mirror triangle to the reflected ray.
 
-The three-ray camera interpolates rays instead and is O(h^2) off; Newton steps on this map make its images exact.
+The three-ray camera interpolates rays instead, with an error of O(h^2). Newton steps on this map make its images exact.
 """
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from ..views import View
 from .mirror_surface import LEAST_RISE, MirrorSurface, Way, along
 from .reflection_map import ReflectionMap
 
-NEARLY_GRAZING = 0.03  # sine at a face's places asked below which some ray of the face may need to be bent
+NEARLY_GRAZING = 0.03  # sine at a face's sampled places, below which some ray of the face may need to be bent
 FEW = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0 / 3.0, 1.0 / 3.0)])
-STEPS = 6  # along the sides of faces that the few places leave in doubt
+STEPS = 6  # samples along the sides of faces that the few places do not decide
 MANY = np.array([(i, j) for i in range(STEPS + 1) for j in range(STEPS + 1 - i)]) / STEPS
 
 
 class MirrorMap(ReflectionMap):
-    """Rays of the mirror's triangles as the view sees them; the origin of a ray is its place.
+    """Reflection map after one bounce: rays of the mirror's triangles as the view sees them.
 
-    With `parallel`, every triangle sends all its rays along one direction, that of its middle: the parallel
-    three-ray camera, whose projection is linear and jumps between triangles. The `surface` of the mirror is worked out
-    where it is not given.
+    The origin of a ray is the place on the mirror. With `parallel`, all rays of a triangle have one direction, that of
+    its centroid: the parallel three-ray camera, whose projection is linear and jumps between triangles. The `surface`
+    of the mirror is computed if it is not given.
     """
 
     def __init__(self, view: View, mirror: TriangleMesh, parallel: bool = False,
@@ -42,15 +42,17 @@ class MirrorMap(ReflectionMap):
             return
         least, most = self._rises(every, FEW)
         self.grazing = least < NEARLY_GRAZING
-        # near the eye, or where normals turn much, rays between these places rise less than at any of them
+        # near the eye, or with strongly curved normals, rays between these places may have smaller sines than at them
         doubtful = np.flatnonzero((2.0 * least - most < NEARLY_GRAZING) & ~self.grazing)
         least, most = self._rises(doubtful, MANY)
-        # what lies between the many is lower by a square of how near they are
+        # between samples the sine may be lower by an amount that shrinks with the square of their distance
         self.grazing[doubtful] = least - (most - least) / STEPS**2 < LEAST_RISE
 
     def _rises(self, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How steeply (n,) rays that are not lifted leave faces (n,) at the least and at the most, of some `places`
-        (k, 2) in (u, v)."""
+        """Return the smallest and the largest sine (n,) between a face's plane and its unlifted reflected rays.
+
+        The rays leave each `face` (n,) at `places` (k, 2), in (u, v).
+        """
         least, most = np.full(len(face), np.inf), np.full(len(face), -np.inf)
         for place in places:
             uv = np.repeat(place[:, None], len(face), axis=1)
@@ -60,7 +62,7 @@ class MirrorMap(ReflectionMap):
         return least, most
 
     def arriving(self, places: np.ndarray) -> np.ndarray:
-        """View directions (3, n), as long as the way from the eye (1 in orthographic views)."""
+        """Return view directions (3, n) at `places` (3, n), as long as the distance from the eye (orthographic: 1)."""
         if self.orthographic:
             return np.broadcast_to(self.forward, places.shape)
         return places - self.eye
@@ -116,7 +118,7 @@ class MirrorMap(ReflectionMap):
         return found
 
     def _gathered(self, face: np.ndarray) -> MirrorSurface:
-        """The surface's triangles `face` (n,), which Newton's method asks for several times."""
+        """Return the surface's triangles `face` (n,), cached for the steps of Newton's method."""
         if self._last is None or self._last[0] is not face:
             self._last = face, self.surface.select(face)
         return self._last[1]

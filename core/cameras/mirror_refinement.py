@@ -1,15 +1,17 @@
-"""Error-bounded refinement of the mirror: cameras are split where their rays stray from the true reflection map.
+"""Error-bounded refinement of the mirror: cameras are split where their rays deviate from the true reflection map.
 
-A camera interpolates the rays of its corners; the true map bends between them. Halfway along an edge the two differ by
-an angle, which moves the image of a point at distance l by some pixels: the angle's displacement l |delta| over the
-motion of the reflected point along the edge, times the edge's length in the picture. Flat mirrors show no difference at
-all and stay whole. Where the mirror is bent strongly one way and hardly the other, the same angle is little along an
-edge and pixels beside it: there the displacement is solved in the motions along two edges, and bounded more loosely,
-since what cameras are cut into later has true rays. It asks what the whole has met, which must not be far off.
+A camera interpolates the rays of its corners; the true map is curved between them. At an edge's midpoint the two rays
+differ by a vector delta, which moves the image of a point at distance l by some pixels: l |delta|, divided by the
+motion of the reflected point along the edge, times the edge's length in the picture. Flat mirrors have no difference
+and are not split.
 
-In a picture a sliver narrower than a pixel shows little, wherever its rays go. Of a lamp's light it may be much: what
-grazes one mirror after another leaves each many times as bright as it fell on it. There rays part by no more than an
-angle.
+If the mirror is strongly curved in one direction and almost flat in the other, the same delta is a small displacement
+along an edge, but pixels across it. So the displacement is also solved in the motions along two edges. Its tolerance
+is larger, because parts that cameras are cut into later have true rays.
+
+In a picture, a sliver narrower than a pixel shows little, wherever its rays go. For a lamp, it may carry much light:
+light that grazes several mirrors gets much brighter at each. There a further limit holds for the angle between the rays
+at the ends of an edge.
 """
 from __future__ import annotations
 
@@ -24,33 +26,33 @@ from .camera_splitting import edge_middles, in_picture, shares_in_picture, split
 from .shading_horizon import beyond_horizon
 from .three_ray_cameras import Cameras
 
-LEVELS, DEEPER, FEW = 12, 48, 1024  # how often cameras are split; how often where only few are left to be
-INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, nothing can be solved in them
-ROUNDING = 1e-14  # radians: what unit vectors are rounded by must not split a flat mirror
-PARTED = 0.5  # cosine between the rays of a lamp's light at the ends of an edge, behind the first mirror
-THIN = 0.05  # pixels: nothing moves across a camera that is no wider
-SHORTEST_EDGE = 0.5  # pixels: a shorter edge cannot stray by a visible amount
+LEVELS, DEEPER, FEW = 12, 48, 1024  # levels of splitting; levels if at most FEW cameras are left to split
+INDEPENDENT = 1e-6  # sine between the motions along two edges: below, as on a fold, the system is singular
+ROUNDING = 1e-14  # radians: rounding of unit vectors, which must not split a flat mirror
+PARTED = 0.5  # smallest cosine between the rays of a lamp's light at the ends of an edge, after the first bounce
+THIN = 0.05  # pixels: displacements across a narrower camera are ignored
+SHORTEST_EDGE = 0.5  # pixels: shorter edges cannot deviate visibly
 
 
 def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
                   maximum: int) -> tuple[Cameras, bool]:
-    """Cameras in the picture, split until each edge strays by less than `tolerance` pixels.
+    """Split cameras in the picture until the rays of each edge deviate by less than `tolerance` pixels.
 
     Parameters
     ----------
     reach : float, distance of the farthest diffuse point from the mirror, in scene units
-    maximum : int, no more than about this many cameras are made
+    maximum : int, largest number of cameras, approximately
 
     Returns
     -------
     cameras : Cameras
-    limited : bool, whether the bound on depth or count stopped the refinement
+    limited : bool, True if the limit on levels or on cameras stopped the refinement
     """
     cameras = cameras.select(in_picture(cameras))
     finished: list[Cameras] = []
     limited = True
     for level in range(DEEPER):
-        # an eye close above a large triangle asks for many levels of few cameras; more of many end nowhere
+        # an eye close above a large triangle needs many levels of few cameras; with many cameras they never end
         if sum(map(len, finished)) + len(cameras) > maximum or (level >= LEVELS and len(cameras) > FEW):
             break
         ends, first, edge = shared_edges(cameras.corners)
@@ -61,7 +63,7 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
         if not marked.any():
             limited = False
             break
-        # a whole camera stays whole: what is said of an edge does not depend on who asks
+        # an unsplit camera stays unsplit: the test of an edge does not depend on the camera beside it
         divided = marked[edge].any(axis=1)
         finished.append(cameras.select(~divided))
         cameras, _ = split_at(cameras.select(divided), marked, edge[divided],
@@ -74,16 +76,16 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
 
 @dataclass(frozen=True)
 class _Edges:
-    """Edges of cameras, and what there is halfway along them.
+    """Edges of cameras, with interpolated and true rays at one place on each.
 
     Attributes
     ----------
-    ends : (e, 2) int64
-    pixels : (c, 2) float64, of all corners of the cameras
-    lengths : (e,) float64, in pixels
-    given : (3, e) float64, unit rays halfway, from those of the ends
+    ends : (e, 2) int64, corners at the ends of the edges
+    pixels : (c, 2) float64, all corners of the cameras, in pixels
+    lengths : (e,) float64, lengths of the edges in pixels
+    given : (3, e) float64, unit rays interpolated between those of the ends
     turns : (3, e) float64
-        From these to the true rays; zero where they are no more than what unit vectors are rounded by.
+        Difference from these to the true unit rays, scaled to the midpoint; zero if it is rounding.
     """
 
     ends: np.ndarray
@@ -99,24 +101,24 @@ class _Edges:
             pixels = cameras.view.pixels(cameras.places.T)
             lengths = np.linalg.norm(pixels[a] - pixels[b], axis=1)
         given = unit((1.0 - share) * cameras.rays[:, a] + share * cameras.rays[:, b])
-        # what strays grows from either end
+        # the deviation is zero at both ends: scale it as a parabola to its value at the midpoint
         turns = (unit(middle_rays) - given) / (4.0 * share * (1.0 - share))
         return cls(ends, pixels, lengths, given, np.where(norm(turns) > ROUNDING, turns, 0.0))
 
 
 def _marked(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float, tolerance: float) -> np.ndarray:
-    """Which edges (e,), `edge` (n, 3) of the cameras, are to be split."""
+    """Return True (e,) for edges to split; `edge` (n, 3) are the cameras' edges."""
     marked = _straying(cameras, edges, reach) > tolerance
     marked |= _straying_beside(cameras, edges, edge, reach) > BESIDE_EDGES * tolerance
     marked |= _parted(cameras, edges)
-    # slivers of lifted rays: nothing to be exact about
+    # do not refine slivers of lifted rays
     asked = np.flatnonzero(marked[edge].any(axis=1))
     worth = mask(len(marked), edge[asked[~beyond_horizon(cameras.select(asked))]])
     return marked & worth
 
 
 def _straying(cameras: Cameras, edges: _Edges, reach: float) -> np.ndarray:
-    """Pixels (e,) by which the cameras stray from the true map halfway along edges."""
+    """Return the deviation (e,) in pixels of the cameras from the true map at edge midpoints, along the edges."""
     a, b = edges.ends[:, 0], edges.ends[:, 1]
     along = cameras.origins[:, b] - cameras.origins[:, a]
     across = norm(along - dot(along, edges.given) * edges.given)
@@ -127,7 +129,7 @@ def _straying(cameras: Cameras, edges: _Edges, reach: float) -> np.ndarray:
 
 
 def _parted(cameras: Cameras, edges: _Edges) -> np.ndarray:
-    """Edges (e,) between whose ends a lamp's light that has met two mirrors is sent too far apart."""
+    """Return True (e,) for edges whose end rays diverge too much; only for a lamp's light after two or more bounces."""
     if cameras.mirror_map.bounce == 1 or not isinstance(cameras.view, LampView):
         return np.zeros(len(edges.ends), dtype=bool)
     start, end = (unit(cameras.rays[:, corner]) for corner in edges.ends.T)
@@ -136,7 +138,10 @@ def _parted(cameras: Cameras, edges: _Edges) -> np.ndarray:
 
 @np.errstate(invalid="ignore", over="ignore", divide="ignore")
 def _straying_beside(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: float) -> np.ndarray:
-    """Pixels (e,) by which cameras stray halfway along their edges, `edge` (n, 3) of them, in whatever direction."""
+    """Return the deviation (e,) in pixels of the cameras from the true map at edge midpoints, in any direction.
+
+    `edge` (n, 3) are the cameras' edges.
+    """
     rays = [unit(columns(cameras.rays, corner)) for corner in cameras.corners.T]
     ahead = unit(rays[0] + rays[1] + rays[2])
 
@@ -149,7 +154,7 @@ def _straying_beside(cameras: Cameras, edges: _Edges, edge: np.ndarray, reach: f
     area = uu * vv - uv**2
     area = np.where(area > INDEPENDENT**2 * uu * vv, area, np.inf)
     right, up = (edges.pixels[cameras.corners[:, k]] - edges.pixels[cameras.corners[:, 0]] for k in (1, 2))
-    # what moves within a sliver moves along it, for which its edges have been asked
+    # in a sliver points move only along it, and `_straying` has tested its edges
     wide = ~(np.abs(right[:, 0] * up[:, 1] - right[:, 1] * up[:, 0]) < THIN * edges.lengths[edge].max(axis=1))
     straying = np.zeros(len(edges.ends))
     for side in edge.T:

@@ -18,17 +18,17 @@ import numpy as np
 
 from ..geometry import TriangleMesh, columns, cross, dot, norm, rows, unit
 
-ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # ways in (u, v)
-LOST = 1e-12  # length of an interpolated normal: of less nothing can be told
-LEAST_RISE = 0.01  # sine of the angle at which Cycles lets a bent ray leave
+ALONG_UV = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])  # unit directions in (u, v)
+LOST = 1e-12  # length of an interpolated normal: shorter ones have no reliable direction
+LEAST_RISE = 0.01  # sine of the angle to the flat triangle at which Cycles lets a bent ray leave
 Way = np.ndarray | tuple[np.ndarray, np.ndarray]
 """A change of (u, v): (2, n), or its two rows."""
 
 
 class MirrorSurface:
-    """Triangles as places Q = A + u (B - A) + v (C - A), their unit interpolated normals, and rays reflected there.
+    """Triangles as places Q = A + u (B - A) + v (C - A), with unit interpolated normals and reflected rays.
 
-    Arrays of places, rays and normals are component-first, (3, n); `face` (n,) names triangles, `uv` is (2, n).
+    Arrays of places, rays and normals are component-first, (3, n). `face` (n,) holds triangle indices, `uv` is (2, n).
     """
 
     def __init__(self, mirror: TriangleMesh) -> None:
@@ -42,7 +42,7 @@ class MirrorSurface:
 
     @property
     def across(self) -> np.ndarray:
-        """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
+        """Indices (m, 3) of the triangle across the side opposite to each corner; -1 if there is none, or several."""
         return self._mirror.neighbours
 
     def _set(self, parts: np.ndarray) -> None:
@@ -50,8 +50,10 @@ class MirrorSurface:
         self.normal, self.normal_u, self.normal_v, self.a, self.u, self.v = parts[:18].reshape(6, 3, -1)
 
     def select(self, face: np.ndarray) -> MirrorSurface:
-        """A surface of the triangles `face` (n,), which knows places, normals and rays: to gather all that is known of
-        them at once is quicker than one by one."""
+        """Return a surface of the triangles `face` (n,), for places, normals and rays.
+
+        Gathering all data of the triangles once is faster than gathering each array when it is needed.
+        """
         chosen = copy(self)
         chosen._set(columns(self._parts[:18], face))
         chosen.face_normal = columns(self.face_normal, face)
@@ -61,7 +63,7 @@ class MirrorSurface:
         return self.a.shape[1]
 
     def _between(self, first: int, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
-        """What is A + u B + v C of the rows from the `first` on."""
+        """Return A + u B + v C (3, n), where A, B, C are rows `first` to `first + 9` of the triangles' data."""
         own = self._parts[first:first + 9]
         if not isinstance(face, slice):
             own = columns(own, face)
@@ -70,42 +72,42 @@ class MirrorSurface:
         return np.add(between, own[6:] * uv[1], out=between)
 
     def places(self, face: np.ndarray | slice, uv: np.ndarray) -> np.ndarray:
-        """Q."""
+        """Return the places Q (3, n) at `uv` on the triangles."""
         return self._between(9, face, uv)
 
     def corners(self, face: np.ndarray) -> np.ndarray:
-        """(3, 3, n): the corners of triangles one behind another."""
+        """Return the corners (3, 3, n) of triangles, as [component, corner, triangle]."""
         own = columns(self._parts[9:18], face)
         return np.stack((own[:3], own[:3] + own[3:6], own[:3] + own[6:]), axis=1)
 
     def coordinates(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
-        """(u, v) of `places` on the planes of the triangles."""
+        """Return (u, v) (2, n) of `places` (3, n) on the planes of the triangles."""
         own = columns(self._parts[9:], face)
         return _coordinates(own[3:], places - own[:3])
 
     def move_coordinates(self, face: np.ndarray, moves: np.ndarray) -> np.ndarray:
-        """The change of (u, v) that moves in the planes of the triangles make."""
+        """Return the change (2, n) of (u, v) for `moves` (3, n) in the planes of the triangles."""
         return _coordinates(columns(self._parts[12:], face), moves)
 
     def normals(self, face: np.ndarray, uv: np.ndarray) -> np.ndarray:
-        """Unit interpolated normals."""
+        """Return unit interpolated normals (3, n)."""
         return self._unit_normal(self._between(0, face, uv), face)[0]
 
     def _unit_normal(self, raw: np.ndarray, face: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
-        """Unit normals, in place of the `raw` ones, and how long (n,) they were."""
+        """Normalise the `raw` normals (3, n) in place; return them and their previous lengths (n,)."""
         size = norm(raw)
         known = size > LOST
         if known.all():
             raw /= size
             return raw, size
         raw /= np.where(size > 0.0, size, 1.0)
-        # opposite normals may cancel along an edge: the flat normal is then the only one left
+        # opposite normals may cancel along an edge: use the flat normal there
         lost = np.flatnonzero(~known)
         raw[:, lost] = self.face_normal[:, face][:, lost]
         return raw, np.maximum(size, LOST)
 
     def unbent(self, face: np.ndarray, uv: np.ndarray, direction: np.ndarray) -> np.ndarray:
-        """Rays of the interpolated normals alone, whether they enter the triangle or not."""
+        """Return rays (3, n) reflected by the interpolated normals, even if they enter the triangle."""
         normal = self.normals(face, uv)
         slope = dot(direction, normal)
         slope *= 2.0
@@ -114,8 +116,10 @@ class MirrorSurface:
 
     def derivatives(self, face: np.ndarray | slice, uv: np.ndarray, direction: np.ndarray,
                     changes: Sequence[tuple[Way, np.ndarray]]) -> tuple[np.ndarray, list[np.ndarray]]:
-        """The unbent rays, and what they change by for each of the `changes`: of (u, v), (2, n), and of the direction
-        that arrives, (3, n)."""
+        """Return the unbent rays (3, n), and a list of their derivatives (3, n), one for each of the `changes`.
+
+        A change is a pair: the change of (u, v), (2, n), and of the arriving direction, (3, n).
+        """
         normal = self._between(0, face, uv)
         square = dot(normal, normal)
         if not (square > LOST**2).all():
@@ -142,23 +146,28 @@ class MirrorSurface:
         return np.subtract(direction, normal, out=normal), turned
 
     def rise(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> np.ndarray:
-        """How steeply rays leave the flat triangles on the side that they came from, as a sine."""
+        """Return the sine (n,) between each leaving `ray` and the flat triangle, negative if the ray enters it.
+
+        `direction` (3, n) are the arriving rays, which define the triangle's front; both have the same length.
+        """
         flat = columns(self.face_normal, face)
         length = np.maximum(norm(direction), 1e-300)
         return -dot(ray, flat) * np.sign(dot(direction, flat)) / length
 
     def enters(self, face: np.ndarray, ray: np.ndarray, direction: np.ndarray, slack: float = 0.0) -> np.ndarray:
-        """Whether rays would enter their flat triangles and have to be lifted, or, by `slack` of their rise, all but
-        have to be."""
+        """Return True (n,) for rays that would enter their flat triangle and have to be lifted.
+
+        With `slack`, rays whose sine is up to `slack` above the limit count too.
+        """
         flat = columns(self.face_normal, face)
         length, upright = np.maximum(norm(direction), 1e-300), dot(direction, flat)
         return -dot(ray, flat) * np.sign(upright) / length < _least_rise(upright / length) + slack
 
     def lift(self, face: np.ndarray, uv: np.ndarray, ray: np.ndarray, direction: np.ndarray) -> None:
-        """Turns those of the rays that would enter the flat triangle until they just clear it."""
+        """Turn rays that would enter their flat triangle until they just clear it. `ray` (3, n) is changed in place."""
         flat = columns(self.face_normal, face)
         length, upright = np.maximum(norm(direction), 1e-300), dot(direction, flat)
-        # seen from behind, the triangle's back is its front
+        # flip the normals of triangles seen from behind
         side = np.where(upright > 0.0, -1.0, 1.0)
         asked = np.flatnonzero(side * dot(ray, flat) < _least_rise(upright / length) * length)
         if not len(asked):
@@ -175,7 +184,10 @@ class MirrorSurface:
 
 
 def _coordinates(own: np.ndarray, moves: np.ndarray) -> np.ndarray:
-    """(u, v) of moves in the planes of triangles of which sides, normal and its square are given, exact for a side."""
+    """Return (u, v) (2, n) of `moves` (3, n) in the planes of triangles; exact for moves along a side.
+
+    `own` (10, n) holds the sides u and v, the area normal, and its square.
+    """
     u, v, flat, uv = own[:3], own[3:6], own[6:9], np.empty((2, *moves.shape[1:]))
     for k, turned in enumerate((cross(moves, v), cross(u, moves))):
         np.divide(dot(turned, flat), own[9], out=uv[k])
@@ -183,12 +195,15 @@ def _coordinates(own: np.ndarray, moves: np.ndarray) -> np.ndarray:
 
 
 def _least_rise(upright: np.ndarray) -> np.ndarray:
-    """How steeply rays must leave, as a sine, where the eye sees triangles under the sine `upright`."""
+    """Return the smallest sine (n,) allowed between a leaving ray and its triangle.
+
+    `upright` (n,) is the sine between the arriving ray and the triangle.
+    """
     return np.minimum(0.9 * np.abs(upright), LEAST_RISE)
 
 
 def along(way: Way, u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """What changes by `u` and `v` (3, n) along them, along a way."""
+    """Return the derivative (3, n) along a direction `way` in (u, v), from the derivatives `u` and `v` (3, n)."""
     for alone, own in zip(ALONG_UV, (u, v)):
         if way is alone:
             return own
@@ -196,11 +211,11 @@ def along(way: Way, u: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def least_weight(uv: np.ndarray) -> np.ndarray:
-    """The least barycentric coordinate (n,) of places (u, v): negative outside of the triangle."""
+    """Return the least barycentric coordinate (n,) of places (u, v): negative outside of the triangle."""
     return np.minimum(np.minimum(uv[0], uv[1]), 1.0 - uv[0] - uv[1])
 
 
 def drawn_in(uv: np.ndarray) -> np.ndarray:
-    """Places (u, v), those outside of their triangle drawn to its rim."""
+    """Return places (u, v) with those outside of their triangle moved to its border."""
     uv = np.maximum(uv, 0.0)
     return uv / np.maximum(uv.sum(axis=0), 1.0)

@@ -1,8 +1,8 @@
-"""The horizon of a smooth mirror: where its interpolated normals would send rays under the flat faces they leave.
+"""The shading horizon of a smooth mirror: the line where interpolated normals start to send rays into flat faces.
 
-Beyond it the true map lifts the rays until they clear the surface, and bends sharply where it begins to. Cameras are
-cut along that line, so that none has the bend inside. What lies beyond is a sliver at the silhouette of a fine mirror,
-and may be a third of a coarse one, as of a cube with smooth normals.
+Beyond it the true map lifts the rays until they clear the surface, and it has a kink along the line. Cameras are cut
+along that line, so that none has the kink inside. The region beyond is a sliver at the silhouette of a fine mirror. It
+may be a third of a coarse mirror, such as a cube with smooth normals.
 """
 from __future__ import annotations
 
@@ -16,16 +16,19 @@ from .three_ray_cameras import Cameras
 
 STEPS = 30
 CAMERAS_AT_ONCE = 4096
-LEVELS = 20  # of splits before the cut, for cameras across which the horizon bulges
-LONG_EDGE = 8.0  # pixels: in a smaller camera a bulge does not matter
+LEVELS = 20  # levels of splitting before the cut, for cameras with a curved horizon inside
+LONG_EDGE = 8.0  # pixels: on shorter edges a curved horizon does not matter
 SLIVER = 2.0  # pixels: a narrower camera of lifted rays alone is not worth refining
-ON_LINE = 1e-6  # rise of rays on the horizon itself, which belong to both its sides
+ON_LINE = 1e-6  # sine: tolerance for rays on the horizon itself, which belong to both sides
 _PROBES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [1 / 3] * 3]).T
 
 
 def beyond_horizon(cameras: Cameras) -> np.ndarray:
-    """Which cameras (n,) lie beyond the horizon whole, of lifted rays alone, and are not worth refining: slivers in
-    the picture, and all in a lamp's, whose light is made fine enough where it falls."""
+    """Return True (n,) for cameras that lie completely beyond the horizon and are not worth refining.
+
+    All their rays are lifted. In a lamp's view all such cameras count, because caustics are refined on the receivers.
+    In other views only slivers count.
+    """
     beyond = np.all(_lifted_probes(cameras, ON_LINE), axis=0)
     if not isinstance(cameras.view, LampView):
         asked = np.flatnonzero(beyond)
@@ -36,8 +39,11 @@ def beyond_horizon(cameras: Cameras) -> np.ndarray:
 
 
 def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:
-    """(8, n): whether the rays at the corners, the edges' middles and the middle of the cameras are lifted, and where
-    an eye close above a large mirror looks down on it."""
+    """Return True (8, n) for lifted rays at eight places of each camera.
+
+    The places are the three corners, the three edge midpoints, the centroid, and the place nearest to the eye. The last
+    one matters for an eye close above a large mirror.
+    """
     mirror_map = cameras.mirror_map
     found = np.zeros((_PROBES.shape[1] + 1, len(cameras)), dtype=bool)
     grazing = np.flatnonzero(mirror_map.grazing[cameras.face])
@@ -53,8 +59,9 @@ def _lifted_probes(cameras: Cameras, slack: float) -> np.ndarray:
 
 
 def _nearest(corners: np.ndarray, eye: np.ndarray) -> np.ndarray:
-    """The places (3, n) of triangles with `corners` (3, n, 3), as [component, triangle, corner], that are nearest to
-    the eye."""
+    """Return the places (3, n) nearest to the `eye` on triangles with `corners` (3, n, 3), as [component, triangle,
+    corner].
+    """
     away = corners - eye[:, None, None]
     sides = following(corners, axis=2) - corners
     share = np.clip(-dot(away, sides) / np.maximum(dot(sides, sides), 1e-300), 0.0, 1.0)
@@ -69,7 +76,7 @@ def _nearest(corners: np.ndarray, eye: np.ndarray) -> np.ndarray:
 
 
 def cut_at_horizon(cameras: Cameras) -> Cameras:
-    """The cameras, those across the horizon cut along it; large ones over whose side it bulges are split first."""
+    """Cut cameras along the horizon; split large ones first if the horizon crosses an edge twice."""
     view = cameras.view
     for _ in range(LEVELS):
         probes = _lifted_probes(cameras, 0.0)
@@ -84,7 +91,7 @@ def cut_at_horizon(cameras: Cameras) -> Cameras:
 
 
 def _cut(cameras: Cameras) -> Cameras:
-    """Cameras with corners on both sides of the horizon in up to three parts."""
+    """Cut cameras with corners on both sides of the horizon into up to three parts."""
     mirror_map = cameras.mirror_map
     near = np.flatnonzero(mirror_map.grazing[cameras.face])
     corner_places = cameras.places[:, cameras.corners[near]].reshape(3, -1)

@@ -18,18 +18,18 @@ from .reflection_map import ReflectionMap
 
 @dataclass(frozen=True)
 class Cameras:
-    """Cameras on shared corners.
+    """Three-ray cameras on shared corners.
 
     Attributes
     ----------
-    corners : (n, 3) int64, each camera's corners, indices into the columns below
+    corners : (n, 3) int64, each camera's corners, as indices into the columns below
     face : (n,) int64
         The mirror triangle that the camera lies on.
         After several bounces, the chain of mirror triangles.
-    places : (3, c) float64, where the eye sees the corners on the mirror, in world space
-    rays : (3, c) float64, R, reflected rays of the corners, as long as the whole way from the eye
-    origins : (3, c) float64, V, where the rays leave the last mirror: the places themselves where there is but one
-    mirror_map : ReflectionMap, the true map that the rays were taken from
+    places : (3, c) float64, corners on the first mirror, in world space
+    rays : (3, c) float64, R, reflected rays of the corners, as long as the whole path from the eye
+    origins : (3, c) float64, V, ray origins on the last mirror, in world space; after one bounce equal to `places`
+    mirror_map : ReflectionMap, the true map of the rays
     """
 
     corners: np.ndarray
@@ -47,7 +47,7 @@ class Cameras:
 
     def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
                  rays: np.ndarray) -> Cameras:
-        """Other cameras on these corners and on more of them: `places`, `origins` and `rays` (3, k) come behind."""
+        """Return other cameras on the same corners and k new ones, with their `places`, `origins`, `rays` (3, k)."""
         places = np.concatenate((self.places, places), axis=1)
         return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
                        places if self.mirror_map.bounce == 1 else np.concatenate((self.origins, origins), axis=1),
@@ -55,14 +55,17 @@ class Cameras:
 
     @property
     def view(self) -> View:
-        """Who looks."""
+        """The view that the cameras belong to."""
         return self.mirror_map.view
 
 
 def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
-    """Indices of the mirror's triangles that the view may see: with an area, and, where the mirror is a closed surface,
-    on the side that hides the others. Open mirrors show both their sides, as in Cycles, and so do closed ones that the
-    plane of an orthographic eye cuts: some of its rays begin inside."""
+    """Return the indices of the mirror's triangles that the view may see.
+
+    Triangles without an area are left out. On a closed mirror only outer sides count, or inner sides if the eye is
+    inside. Open mirrors show both sides, as in Cycles. So does a closed mirror that is cut by the plane of an
+    orthographic eye, because some rays start inside of it.
+    """
     areal = np.flatnonzero(mirror.areal)
     triangles = mirror.triangles[areal]
     corners = mirror.positions[triangles]
@@ -74,18 +77,29 @@ def visible_triangles(view: View, mirror: TriangleMesh) -> np.ndarray:
 
 
 def not_edge_on(view: View, mesh: TriangleMesh) -> np.ndarray:
-    """Which triangles (m,) have an area, and one that the view sees."""
+    """Return True (m,) for triangles with an area that the view does not see edge-on."""
     return mesh.areal & (_towards(view, mesh.positions[mesh.triangles]) != 0.0)
 
 
 def _towards(view: View, corners: np.ndarray) -> np.ndarray:
-    """How much of the normals of triangles (m, 3, 3) the view sees, from behind less than nothing."""
+    """Return the component (m,) of triangles' normals towards the eye: negative for triangles seen from behind.
+
+    `corners` (m, 3, 3) are in world space.
+    """
     return -np.einsum("ij,ij->i", view.directions(corners[:, 0]), _normals(corners))
 
 
 def _outwards(view: View, positions: np.ndarray, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """(n,): positive where the normals of triangles (n, 3), with the corners (n, 3, 3) among positions (v, 3), point
-    out of their closed body, or into it where the eye is in it, as in a room with a ball; else negative."""
+    """Return a sign (n,): positive if a triangle's normal points out of its closed body, negative if into it.
+
+    For bodies with the eye inside, such as a room, the sign is reversed.
+
+    Parameters
+    ----------
+    positions : (v, 3) float64
+    triangles : (n, 3) int64
+    corners : (n, 3, 3) float64, corners of the triangles
+    """
     body = connected(triangles)
     sixfold = np.einsum("ij,ij->i", corners[:, 0] - corners.mean(axis=(0, 1)), _normals(corners))
     volume = np.bincount(body, sixfold)
@@ -93,7 +107,7 @@ def _outwards(view: View, positions: np.ndarray, triangles: np.ndarray, corners:
         owner = np.full(len(positions), -1)
         owner[triangles] = body[:, None]
         used = np.flatnonzero(owner >= 0)
-        # none can be round the eye but those in whose box it is
+        # only bodies with the eye in their bounding box can contain it
         near = np.ones(len(volume), dtype=bool)
         for side in (*(positions[used] > view.eye).T, *(positions[used] < view.eye).T):
             near &= np.bincount(owner[used], side) > 0.0
@@ -108,7 +122,7 @@ def _normals(corners: np.ndarray) -> np.ndarray:
 
 
 def _closed(triangles: np.ndarray) -> bool:
-    """Whether each directed edge meets its opposite exactly once."""
+    """Return True for a closed surface: each directed edge has exactly one opposite."""
     if not len(triangles):
         return False
     count = int(triangles.max()) + 1
@@ -119,7 +133,7 @@ def _closed(triangles: np.ndarray) -> bool:
 
 
 def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.ndarray) -> Cameras:
-    """Cameras on the mirror's triangles `faces`, sharing the corners whose vertex and normal agree."""
+    """Make cameras on the mirror's triangles `faces` (n,); corners with the same vertex and normal are shared."""
     corner_face = np.repeat(faces, 3)
     corner = np.tile(np.arange(3), len(faces))
     if mirror_map.parallel:
@@ -128,7 +142,7 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     else:
         vertex = mirror.triangles[faces].ravel()
         normal = mirror.corner_normals[faces].reshape(-1, 3)
-        # rays that are lifted above their flat face are each face's own
+        # corners with lifted rays are not shared, because their rays depend on the flat face
         lifted = mirror_map.lifted(corner_face, np.stack((corner == 1, corner == 2)).astype(np.float64))
         keys = np.stack((*normal.T, np.where(lifted, corner_face, -1), vertex))
         order = np.lexsort(keys)
@@ -140,7 +154,7 @@ def three_ray_cameras(mirror_map: MirrorMap, mirror: TriangleMesh, faces: np.nda
     uv = np.stack((corner[first] == 1, corner[first] == 2)).astype(np.float64)
     face = corner_face[first]
     places = mirror_map.places(face, uv)
-    # each begins at its lowest corner in x, y, z, so that splitting does not depend on how the triangle was listed
+    # start each camera at its lowest corner by x, y, z, so that splitting does not depend on the order of its corners
     rank = numbered(len(first), np.lexsort(places[::-1]))
     corners = shared.reshape(-1, 3)
     turn = (np.argmin(rank[corners], axis=1)[:, None] + np.arange(3)) % 3

@@ -1,7 +1,7 @@
-"""Images settled on the mirror triangle that they truly lie on.
+"""A walk of images from triangle to triangle, to the mirror triangle that they lie on.
 
-Newton's method knows one triangle's map, which goes on beyond its edges. An image that ends outside is looked for again
-on the triangle across the edge that it left by; where there is none, it lies beside the mirror and is no image.
+Newton's method uses the map of one triangle, which continues beyond its edges. An image that ends outside is searched
+again on the triangle across the edge that it left by. Without such a triangle it lies off the mirror and is no image.
 """
 from __future__ import annotations
 
@@ -12,13 +12,26 @@ from .mirror_map import MirrorMap
 from .mirror_surface import drawn_in, least_weight
 
 STEPS = 6
-INSIDE = 1e-9  # of a triangle: rounding
-BETWEEN = 1e-3  # of a triangle: what two triangles may each leave to the other at their edge
+INSIDE = 1e-9  # barycentric tolerance for rounding: images this little outside of a triangle count as inside
+BETWEEN = 1e-3  # barycentric: width of the strip at an edge in which an image that belongs to neither side is accepted
 
 
 def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarray,
            points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Faces, places (u, v) and s of the images of `points` (3, n), and which of them are images at all."""
+    """Walk images to the triangles that they lie on.
+
+    Parameters
+    ----------
+    face, uv, s : (n,), (2, n), (n,), triangle, place and distance found by Newton's method on a first triangle
+    points : (3, n) float64, reflected points in world space
+
+    Returns
+    -------
+    face : (n,) int64
+    uv : (2, n) float64
+    s : (n,) float64
+    found : (n,) bool, True for images on the mirror
+    """
     face, uv, s, across = face.copy(), uv.copy(), s.copy(), mirror_map.surface.across
     found = np.zeros(len(face), dtype=bool)
     least, corner = _least(uv)
@@ -27,7 +40,7 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
     came_from, before = np.full(len(face), -1), least
     for _ in range(STEPS):
         following = across[face[wandering], corner[wandering]]
-        # left by either of two triangles to the other: on their edge, where the map has a kink
+        # each of two triangles sends the image to the other: it lies on their edge, where the map has a kink
         inner = following >= 0
         back = inner & (following == came_from[wandering]) & (np.minimum(least, before)[wandering] > -BETWEEN)
         found[wandering[back]] = True
@@ -49,14 +62,28 @@ def settle(mirror_map: MirrorMap, face: np.ndarray, uv: np.ndarray, s: np.ndarra
 
 
 def distance_from(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """How far places (3, n) are from what they are brought back to of the triangles `face` (n,) that they belong to."""
+    """Return the distances (n,) from `places` (3, n) to the places on their triangles `face` (n,) they would move to.
+
+    The distance is zero for places inside of their triangle.
+    """
     return norm(_drawn_in(mirror_map, face, places) - places)
 
 
 def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What the eye sees nearest to each of the places (3, n) of its triangle (n,) or of the one beyond the edge that it
-    left by, and how many pixels away that is. In space what lies a pixel beside a triangle seen all but edge on is far
-    from it, and something else in the picture may be nearer."""
+    """Move `places` (3, n) to the nearest place in the picture on their triangle, or on the one across the edge.
+
+    The distance is measured in the picture, not in space: places a pixel outside of an almost edge-on triangle are far
+    away from it in space.
+
+    Parameters
+    ----------
+    face : (n,) int64, triangle of each place
+
+    Returns
+    -------
+    places : (3, n) float64
+    away : (n,) float64, distance moved, in pixels
+    """
     _, corner = _least(mirror_map.coordinates(face, places))
     beyond = mirror_map.surface.across[face, corner]
     own, other = (_drawn_in(mirror_map, one, places) for one in (face, np.where(beyond >= 0, beyond, face)))
@@ -67,8 +94,10 @@ def brought_back(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) ->
 
 @np.errstate(invalid="ignore", over="ignore")
 def _drawn_in(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Places (3, n), those outside of their triangles drawn to the rim, to what the eye sees nearest, in the first
-    order."""
+    """Return `places` (3, n), with those outside of their triangles moved to the border place nearest in the picture.
+
+    The projection to the picture is linearised at each place.
+    """
     uv = mirror_map.coordinates(face, places)
     out = np.flatnonzero(least_weight(uv) < 0.0)
     gradients = mirror_map.view.pixel_gradients(places[:, out])
@@ -82,13 +111,13 @@ def _drawn_in(mirror_map: MirrorMap, face: np.ndarray, places: np.ndarray) -> np
         distance = ((first + share * side)**2).sum(axis=0)
         rim = np.where(distance < least, corner + share * way, rim)
         least = np.minimum(distance, least)
-    # what has no picture, or is seen edge on to the last digit
+    # clamp once more: triangles without a picture, or exactly edge-on, give no reliable place
     uv[:, out] = drawn_in(rim)
     return mirror_map.places(face, uv)
 
 
 def _least(uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The least barycentric coordinate (n,), and its corner."""
+    """Return the least barycentric coordinate (n,), and the corner (n,) that it belongs to."""
     weights = np.stack((1.0 - uv[0] - uv[1], uv[0], uv[1]))
     corner = np.argmin(weights, axis=0)
     return weights[corner, np.arange(len(corner))], corner

@@ -1,4 +1,4 @@
-"""The result: faces on what is lit, each with the irradiance at its corners."""
+"""The resulting caustic mesh: faces on the receivers with the irradiance at their corners."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -8,42 +8,42 @@ import numpy as np
 
 @dataclass(frozen=True)
 class CausticMesh:
-    """The light of one lamp that one mirror throws, in world space and scene units.
+    """The caustics of one lamp and one mirror, in world space and scene units.
 
-    Faces of several images, and of both parities, lie over each other where the light comes more than one way: their
-    irradiance adds up.
+    Faces of several images, and of both parities, overlap where light arrives by more than one path: their irradiance
+    adds up.
 
     Attributes
     ----------
     positions : (n, 3) float64
-        On what is lit.
+        Vertices on the receivers.
     triangles : (m, 3) int64
-        Turned to the side that is lit.
+        Faces; their normals point to the lit side.
     irradiance : (m, 3) float64
-        At the corners of the faces, of a perfect mirror: W/m2 for a lamp of 1 W/sr times its pattern, or for a sun
-        of 1 W/m2.
-        Interpolated over a face it amounts to the face's flux. Finite everywhere.
+        Irradiance at the corners of the faces, for a perfect mirror: W/m2 for a lamp of 1 W/sr times its pattern, or
+        for a sun of 1 W/m2. Interpolated over a face it integrates to the face's flux. Finite everywhere.
     flux : (m,) float64
-        The solid angle of each face in the lamp's picture, times the pattern's mean; of a sun the face's area across
-        the light.
+        Solid angle of each face in the lamp's picture, times the pattern's mean; for a sun, the face's area
+        perpendicular to the light.
     mirror_position : (n, 3) float64
-        Where on the mirror the light comes from.
+        Places on the first mirror that the light comes from.
     image_parity : (n,) int8
-        +1 or -1 (turned over), 0 on a caustic.
+        +1, or -1 for mirrored images, or 0 on a caustic.
     met : (m, b) int64
-        Triangles of the mirrors that the light of each face meets, in its order, those of `mirrors` behind those of
-        `mirror`; -1 where it meets no more.
+        Indices of the mirror triangles that the light of each face hits, in order; -1 after the last. Triangles of
+        `mirrors` are numbered after those of `mirror`.
     cosine : (m, 3, b) float64
-        Of the angles at which it meets them, at the corners; negative where it meets a triangle's back.
+        Cosine of the angle of incidence at these triangles, for each corner; negative at a triangle's back.
     direction : (m, 3, 3) float64
-        In which the light comes to the corners; unit vectors.
+        Unit direction of the light that arrives at each corner.
     source_face : (m,) int64
-        Triangle of what is lit.
+        Triangle of the receivers that each face lies on.
     source_weights : (m, 3, 3) float64
-        Barycentric coordinates of each corner of each face in its source triangle.
+        Barycentric coordinates of each corner of each face in that triangle.
     bounces : (m,) int8
-        How many mirrors the light has met.
+        Number of mirrors that the light has hit.
     counts : dict
+        Counts of the steps, for reports.
 
     Examples
     --------

@@ -1,13 +1,14 @@
-"""Light at the corners of faces, by the derivative of the true map that the lamp sees them by.
+"""Light at the corners of faces, from the derivative of the true map from the lamp's picture.
 
-Light of the intensity I that has gone the way d to the mirror has the irradiance I / |d|^2 across its direction there.
-On its way on a thin bundle of it grows to `turned` times its area across the light, and falls on the receiver with the
-cosine c: I c / (|d|^2 |turned|) is the irradiance there, infinite on a caustic, where `turned` is zero.
+Light of intensity I that has travelled the vector d to the mirror has the irradiance I / |d|^2 there, on a plane
+perpendicular to it. After the mirror, the cross section of a thin bundle grows by the factor `turned`. It arrives at
+the receiver with the cosine c, so the irradiance there is I c / (|d|^2 |turned|). It is infinite on a caustic, where
+`turned` is zero.
 
-Flat triangles with smooth normals send a bundle on that is wider or narrower than what came, by the sines of both ways
-to them. A path tracer, which comes from the receiver, does not see that: it finds the lamp as bright as ever in what it
-sees of the triangle. So that both find the same, light must be weighted by how much wider its bundle leaves. E. Veach,
-"Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
+Flat triangles with smooth normals change the cross section of a bundle, by the ratio of the sines of the leaving and
+the arriving ray to the triangle. A path tracer that comes from the receiver does not know this factor: it finds the
+lamp at full brightness in its image of the triangle. To get the same result, light is weighted by the growth of its
+bundle. E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3.
 """
 from __future__ import annotations
 
@@ -21,9 +22,9 @@ from ..support import portions
 from .lamps import Lamp, mean_of_seven
 
 AT_ONCE = 1 << 13
-ON_FOLD = 1e-12  # of the growth of a bundle: less is none
-SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is counted as if it did not quite
-ARRIVED = 1e-6  # of the path: by how much the ray of a corner may miss it
+ON_FOLD = 1e-12  # growth of a bundle below which it counts as zero: the irradiance is infinite
+SMALLEST = 1e-12  # smallest sine between a ray and a triangle's plane: keeps the ratio of sines finite
+ARRIVED = 1e-6  # share of the path length: largest distance at which a corner's ray counts as hitting its point
 
 
 @dataclass(frozen=True)
@@ -32,13 +33,13 @@ class Corners(ColumnArrays):
 
     Attributes
     ----------
-    uv : (2, 3, m) float64, where on the map's face, as [coordinate, corner, face]
+    uv : (2, 3, m) float64, place on the map's face, as [coordinate, corner, face]
     irradiance : (3, m) float64, infinite on a caustic
-    turned : (3, m) float64
-    cosine : (b, 3, m) float64, at each of the mirrors, the first one first; negative at the back of its triangle
-    place : (3, 3, m) float64, where on the first mirror, as [component, corner, face]
-    side : (3, m) float64, 1 where the front of the receiver is lit, -1 where its back is
-    arrived : (3, m) bool, whether the ray really comes there
+    turned : (3, m) float64, area growth of the ray bundle, `ReflectionMap.turned`
+    cosine : (b, 3, m) float64, at each of the b mirrors, the first one first; negative at the back of its triangle
+    place : (3, 3, m) float64, place on the first mirror in world space, as [component, corner, face]
+    side : (3, m) float64, 1 if the front of the receiver is lit, -1 if its back is lit
+    arrived : (3, m) bool, True if the ray hits the corner
     """
 
     uv: np.ndarray
@@ -50,12 +51,19 @@ class Corners(ColumnArrays):
     arrived: np.ndarray
 
     def of_faces(self) -> Corners:
-        """What is told of the first corners of m faces, behind them of the second and of the third, as theirs."""
+        """Reshape the data of 3 m places to the corners of m faces: first all first corners, then all second, third."""
         return Corners(*(values.reshape(*values.shape[:-1], 3, -1) for values in self._values()))
 
     def of_parts(self, middles: Corners, parent: np.ndarray, local: np.ndarray, place: np.ndarray) -> Corners:
-        """Of parts of faces, whose corners `local` (m, 3) are 0 1 2 of these of their `parent` (m,), or 3 4 5 of the
-        `middles` of its sides, which stand at its `place`."""
+        """Collect the corner data of the m parts that faces were split into.
+
+        Parameters
+        ----------
+        middles : Corners, data at the midpoints of the sides of the faces that are split
+        parent : (m,) int64, the face that each part lies in
+        local : (m, 3) int64, the part's corners: 0, 1, 2 are corners of the parent, 3, 4, 5 midpoints of its sides
+        place : (n,) int64, for each of the n parent faces its column in `middles`
+        """
         corner = local.T
         index = np.where(corner < 3, corner * len(self) + parent,
                          3 * len(self) + (corner - 3) * len(middles) + place[parent])
@@ -67,8 +75,22 @@ class Corners(ColumnArrays):
 
 def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: np.ndarray,
              normals: np.ndarray, lamp: Lamp) -> Corners:
-    """What a lamp of unit intensity, times its pattern, sends to `points` (3, n) that it sees at places (u, v) of
-    faces, where flat receivers have the unit `normals` (3, n): told of n places, not of the corners of m faces."""
+    """Compute the light of a lamp of unit intensity, times its pattern, at n points.
+
+    Parameters
+    ----------
+    ray_map : ReflectionMap
+    face : (n,) int64, face of the map that the lamp sees each point in
+    uv : (2, n) float64, place in that face
+    points : (3, n) float64, lit points in world space
+    normals : (3, n) float64, unit normals of the flat receivers
+    lamp : Lamp
+
+    Returns
+    -------
+    Corners
+        Data of the n points, in arrays with a last axis of length n. `Corners.of_faces` reshapes them to faces.
+    """
     origin, ray = ray_map.leave(face, uv)
     length = np.maximum(norm(ray), 1e-300)
     s = dot(points - origin, ray) / length**2
@@ -89,21 +111,23 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
     if lamp.pattern is not None:
         share = lamp.share(place.T)
         irradiance = np.where(share > 0.0, irradiance, 0.0) * share
-    # a ray is turned by twice the angle that it has to the mirror's plane
+    # half the deflection of a ray is its angle to the mirror, whose sine is the cosine of incidence
     directions = [unit(way) for way in ways]
     upright = np.stack([np.sqrt(np.clip(0.5 * (1.0 - dot(came, sent)), 0.0, 1.0))
                         for came, sent in zip(directions, directions[1:])])
     upright *= _sides(ray_map, face, directions[:-1])
     miss = norm(origin + s * ray - points)
     size = sum(map(norm, ray_map.spans(face)))
-    # where the mirror stands on what is lit, light comes from the very place
+    # s may be slightly negative by rounding at points where the mirror touches the receiver
     arrived = (s * length >= -ARRIVED * size) & (miss <= ARRIVED * (norm(points - origin) + size))
     return Corners(uv, irradiance, turned, upright, place, np.sign(cosine), arrived)
 
 
 def _sides(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray]) -> np.ndarray:
-    """1 where light, whose ways (3, n) `came` to the mirrors, meets the fronts of their triangles, -1 where their
-    backs, as (b, n)."""
+    """Return (b, n): 1 where light hits the front of a mirror triangle, -1 where it hits the back.
+
+    `came` holds the light's directions (3, n) before each of the b mirrors, the first mirror first.
+    """
     sides = []
     for way in came[::-1]:
         surface, triangle = ray_map.last(face)
@@ -114,11 +138,18 @@ def _sides(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray]) -> 
 
 
 def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:
-    """What counts (m,) of the light of faces with these corners, of the lamp's pattern times the weight: what a path
-    tracer sees of the light that comes, 1 where normals are those of the faces.
+    """Return the mean (m,) over each face of the lamp's pattern times the shading-normal weight.
 
-    Over the places of a face it is asked for by the light that comes: as these are seen from the lamp, and as steeply
-    as it falls on the mirrors. Where it grazes them the weight alone has no bounds.
+    The weight is the share of the arriving light that a path tracer finds. It is 1 if the shading normals are the face
+    normals.
+
+    The mean is weighted by the light that arrives: by solid angle from the lamp, and by the sine of its angle to the
+    mirrors. Without these sines the weight is unbounded at grazing angles.
+
+    Parameters
+    ----------
+    face : (m,) int64, face of the map that each face is seen in
+    light : Corners, of the m faces
     """
     counted = np.empty(len(face))
     for own in portions(len(face), AT_ONCE):
@@ -132,7 +163,9 @@ def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: 
 
 
 def _passed(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
-    """The lamp's light (n,) that is found on an area of the first mirror, and that which comes there."""
+    """Return the lamp's light (n,) that a path tracer finds per area of the first mirror, and the light (n,) that
+    arrives there.
+    """
     place = ray_map.places(face, uv)
     way = ray_map.view.forward[:, None] if ray_map.orthographic else place - ray_map.view.eye[:, None]
     ways = [np.broadcast_to(way, place.shape), *ray_map.leaving(face, uv)]
@@ -143,8 +176,11 @@ def _passed(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, lamp: Lamp
 
 def _widened(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
              ways: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How much wider (n,) bundles leave the flat triangles of all mirrors than they come, and their weight (n,); `ways`
-    (3, n) are the light's directions before the first mirror and behind each."""
+    """Return the growth (n,) of bundles at the flat triangles of all mirrors, and their shading-normal weight (n,).
+
+    The growth is the ratio of a bundle's cross sections after and before the mirrors. `ways` holds the light's
+    directions (3, n) before the first mirror and after each mirror.
+    """
     lifted, sent, came = _rises(ray_map, face, uv, ways)
     came = np.maximum(came, SMALLEST)
     return lifted / came, sent / came
@@ -152,11 +188,16 @@ def _widened(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
 
 def _rises(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
            ways: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """How steeply (n,) light leaves the flat triangles of all mirrors, the sines multiplied; how steeply it would as a
-    path tracer finds it; and how steeply it came.
+    """Return products over all mirrors of the sines between light and the mirrors' flat triangles.
 
-    The first two differ where rays would enter a triangle and are lifted: a path tracer that comes along the lifted ray
-    finds no light there, and as much less before as the ray rises less.
+    The first two results differ only where rays would enter a triangle and are lifted. A path tracer that arrives along
+    the lifted ray finds no light there, and less light before that, in proportion to the sine.
+
+    Returns
+    -------
+    lifted : (n,) float64, sines of the leaving rays
+    sent : (n,) float64, sines of the leaving rays before they are lifted, as a path tracer weights them
+    came : (n,) float64, sines of the arriving rays
     """
     ways = [unit(way) for way in ways]
     lifted, came = _sines(ray_map, face, ways, ways[1:])
@@ -170,8 +211,11 @@ def _rises(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray,
 
 def _sines(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray],
            sent: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How steeply (n,) light leaves the flat triangles of mirrors, and how steeply it comes, the sines multiplied: of
-    unit vectors (3, n) that `came`, and were `sent` on."""
+    """Return the products (n,) over all mirrors of the sines of leaving rays, and of arriving rays.
+
+    The sines are those of the angles to the flat triangles. `came` and `sent` hold the unit directions (3, n) before
+    and after each mirror.
+    """
     rises, falls = np.ones(len(face)), np.ones(len(face))
     for before, after in zip(came[len(sent) - 1::-1], sent[::-1]):
         surface, triangle = ray_map.last(face)

@@ -6,15 +6,17 @@ import numpy as np
 from ..geometry import edge_lengths, in_order, shared_edges, solid_angles
 from ..views import View
 
-MOST = 2.0  # of a face's mean: how much more a corner may have, near a caustic, where the map tells infinity
-LOST = 0.9  # of its flux: the most that falls beside a face with straight sides
+MOST = 2.0  # largest irradiance at a corner, in multiples of the face's mean: on a caustic the map's value is infinite
+LOST = 0.9  # largest share of its flux that a face gives to its neighbours because its sides are straight
 
-SINGLE = 2.0**-23  # of what is lit: by how much single precision may move its corners
+SINGLE = 2.0**-23  # rounding of corners in single precision, as share of the lit region's size
 
 
 def flux_of(view: View, places: np.ndarray) -> np.ndarray:
-    """The part of the lamp's picture that triangles with corners (m, 3, 3) cover: their solid angle, or for parallel
-    light their area across it."""
+    """Return the flux (m,) from a lamp of unit intensity to triangles with corners `places` (m, 3, 3) in world space.
+
+    This is their solid angle, or for parallel light their area perpendicular to it.
+    """
     if view.orthographic:
         area = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
         return 0.5 * np.abs(area @ view.forward)
@@ -22,19 +24,23 @@ def flux_of(view: View, places: np.ndarray) -> np.ndarray:
 
 
 def shown_area(corners: np.ndarray, area: np.ndarray, reach: float) -> np.ndarray:
-    """What the `area` (m,) of faces with `corners` (m, 3, 3) may be where they are drawn, in single precision with all
-    that is lit, which reaches so far: that of slivers is rounding."""
+    """Return the `area` (m,) of faces plus the area error of drawing them in single precision.
+
+    For slivers the error dominates. `corners` (m, 3, 3) are the faces' corners; `reach` is the size of the lit region.
+    """
     return np.hypot(area, SINGLE * reach * edge_lengths(corners).max(axis=1, initial=0.0))
 
 
 def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """The part of the `flux` (m,) that falls on faces (m, 3) with straight sides.
+    """Correct the `flux` (m,) of faces for their straight sides, and return the flux (m,) that falls on each face.
+
+    Light between a straight side and the true curve goes to the face across the side. Without a face across, it stays.
 
     Parameters
     ----------
     beside : (m, 3) float64
-        Light that falls beyond the sides 01, 12, 20, or, where it is negative, is missing before them. It falls on
-        the face across, if there is one, and on the face itself if not: what one loses another gains.
+        Flux between the straight sides 01, 12, 20 and the true curves; negative if the curve lies inside of the face.
+    triangles : (m, 3) int64, vertices of the faces
     """
     _, _, edge = shared_edges(triangles)
     sides = in_order(edge.ravel())
@@ -51,11 +57,17 @@ def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.
 
 
 def balanced(irradiance: np.ndarray, flux: np.ndarray, triangles: np.ndarray, shown: np.ndarray) -> np.ndarray:
-    """Irradiance (m, 3) at the corners of faces, infinite on caustics, as finite values that amount to the `flux` (m,)
-    over the area that is `shown` (m,).
+    """Return finite irradiance (m, 3) at the corners of faces, scaled so that it integrates to the `flux`.
 
-    What the values of a face still lack of its flux, or have too much, is shared out between the faces round its
-    corners: slivers, whose area is rounding, do not keep it to themselves.
+    The remaining difference of a face to its flux is distributed over the faces around its corners. So slivers, whose
+    area is rounding, do not get it alone.
+
+    Parameters
+    ----------
+    irradiance : (m, 3) float64, may be infinite on caustics
+    flux : (m,) float64
+    triangles : (m, 3) int64, vertices of the faces
+    shown : (m,) float64, area of the faces, from `shown_area`
     """
     corner = triangles.ravel()
     count = int(corner.max(initial=-1)) + 1
@@ -73,5 +85,8 @@ def balanced(irradiance: np.ndarray, flux: np.ndarray, triangles: np.ndarray, sh
 
 
 def amounting(irradiance: np.ndarray, flux: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Irradiance (m, 3) that amounts to all of the `flux` (m,): slivers may have lacked the area for theirs."""
+    """Scale the irradiance (m, 3) of faces with an `area` (m,) so that its integral is the sum of the `flux` (m,).
+
+    Before, slivers may have had too little area for their flux.
+    """
     return irradiance * (flux.sum() / max((area * irradiance.mean(axis=1)).sum(), 1e-300))

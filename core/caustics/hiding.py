@@ -1,6 +1,6 @@
-"""Which triangles of a scene can hide anything: behind whose planes something lies, as what is before them sees it.
+"""Selection of possible occluders: triangles whose plane has ray starts on one side and ray ends on the other.
 
-In an empty room with a flat floor none does, and what cannot hide need not be asked again and again.
+In an empty room with a flat floor no triangle can occlude anything. Leaving such triangles out saves ray tests.
 """
 from __future__ import annotations
 
@@ -13,22 +13,23 @@ from ..geometry import TriangleMesh, ranges, shares, spread_directions
 from ..trees import along_curve
 from .lamps import Lamp
 
-ABOVE = 1e-7  # of the scene's size: what lies less far behind a triangle lies in its plane
-PLANES = 1e-6  # of a unit normal, and of the scene's size: planes that differ by less are one
+ABOVE = 1e-7  # share of the scene's size: points closer to a plane count as lying in it
+PLANES = 1e-6  # components of a unit normal, and share of the scene's size: planes that differ by less are merged
 AT_ONCE, FEW_AT_ONCE = 1 << 22, 1 << 18
-WAYS = 200  # in which a mesh's outermost corners are looked for
-TOGETHER = 32  # corners side by side, in one box
+WAYS = 200  # directions in which the outermost corners of a mesh are searched
+TOGETHER = 32  # neighbouring corners in one box
 
 
 @dataclass(frozen=True)
 class Sides:
-    """Where things lie.
+    """A test on which sides of planes a set of points lies.
 
     Attributes
     ----------
     of : callable
-        Whether any of them lies above planes n . x = h of normals (n, 3) and heights (n,), and whether any lies below.
-    count : int, how many of them are asked of each plane
+        Takes k planes n . x = h, as normals (k, 3) and heights (k,). Returns two boolean arrays (k,): True where any
+        point lies above the plane, and where any lies below.
+    count : int, number of points tested per plane, for the size of chunks
     """
 
     of: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -36,13 +37,13 @@ class Sides:
 
 
 def screens_of(mirrors: TriangleMesh, ends: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
-    """What of the `scene` may stand between mirrors and the `ends` of light; None where nothing does."""
+    """Return the triangles of the `scene` that may occlude light between mirrors and the `ends` of rays, or None."""
     room = _room(mirrors, ends)
     return _between(scene, _sides_of(mirrors, room), _sides_of(ends, room), room)
 
 
 def shades_of(lamp: Lamp, mirror: TriangleMesh, scene: TriangleMesh) -> TriangleMesh | None:
-    """What of the `scene` may stand between a lamp and a mirror; None where nothing does."""
+    """Return the triangles of the `scene` that may cast shadows from a lamp on a mirror, or None."""
     room = _room(mirror, mirror)
 
     def of_lamp(normal: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -58,17 +59,17 @@ def _room(*meshes: TriangleMesh) -> float:
 
 
 def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
-    """Where the corners of a mesh lie."""
+    """Build the side-of-plane test for the corners of a mesh; points closer than `room` count as in the plane."""
     points = mesh.positions[np.unique(mesh.triangles)]
     points = points[along_curve(points)]
-    # the outermost in some directions tell of most planes, boxes round what lies together of nearly all others
+    # the outermost points in some directions decide most planes, boxes around nearby points nearly all others
     outermost = points[np.unique([np.argmax(points @ way) for way in spread_directions(WAYS)])]
     begin = np.arange(0, len(points), TOGETHER)
     count = np.diff(begin, append=len(points))
     low, high = np.minimum.reduceat(points, begin), np.maximum.reduceat(points, begin)
 
     def over(normal: np.ndarray, height: np.ndarray) -> np.ndarray:
-        """Whether any lies above planes."""
+        """Return True (k,) for planes, as normals (k, 3) and heights (k,), with any point above them."""
         height = height + room
         found = (outermost @ normal.T).max(axis=0) > height
         doubtful = np.flatnonzero(~found)
@@ -86,7 +87,10 @@ def _sides_of(mesh: TriangleMesh, room: float) -> Sides:
 
 
 def _between(scene: TriangleMesh, start: Sides, end: Sides, room: float) -> TriangleMesh | None:
-    """The triangles of a scene on one side of whose planes some of the start lies, and on the other some of the end."""
+    """Select triangles of a scene whose plane has points of `start` on one side and points of `end` on the other.
+
+    Return None if there are none. Planes that differ by rounding are tested once; `room` is the tolerance of heights.
+    """
     if not len(scene.triangles):
         return None
     normal = scene.face_normals()

@@ -1,4 +1,4 @@
-"""What all views of a lamp and all bounces light, as one mesh whose irradiance amounts to its flux."""
+"""Joining of the light of all views of a lamp and all bounces into one mesh whose irradiance integrates to its flux."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -14,18 +14,23 @@ from .energy import amounting, balanced, on_faces, shown_area
 from .refinement import LitFaces
 from .slivers import merged
 
-OF_VERTICES = ("positions", "mirror_position", "image_parity")  # arrays of `CausticMesh`; all others are of faces
+OF_VERTICES = ("positions", "mirror_position", "image_parity")  # vertex arrays of `CausticMesh`; others belong to faces
 ON_CAUSTIC = 1e-5  # growth of a bundle below which bisection has put a vertex on the caustic
-STRAY = 1e-6  # of the flux: with less, faces with a corner to which no light comes are rounding
+STRAY = 1e-6  # share of the flux: faces with less are dropped as rounding if no ray hits one of their corners
 
 
 def joined(parts: list) -> CausticMesh:
-    """The light of all views, of each (faces, flux, reflection, bounce, receivers) for each bounce.
+    """Join the light of all views into one mesh.
+
+    Parameters
+    ----------
+    parts : list
+        For each view a list of tuples (faces, flux, reflection, bounce, receivers), one for each bounce.
 
     Raises
     ------
     NothingInView
-        Where no face is lit.
+        If no face is lit.
     """
     reach = _reach([entry[0] for part in parts for entry in part])
     found = [arrays for arrays in (_arrays(entry, reach) for part in parts for entry in part)
@@ -55,13 +60,16 @@ def joined(parts: list) -> CausticMesh:
 
 
 def _reach(parts: list[LitFaces]) -> float:
-    """How far the faces of all views and bounces reach."""
+    """Return the longest side of the bounding box of the faces of all views and bounces, in scene units."""
     points = np.concatenate([np.zeros((3, 0)), *(faces.points[:, faces.triangles.ravel()] for faces in parts)], axis=1)
     return float(np.ptp(points, axis=1).max()) if points.size else 0.0
 
 
 def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
-    """What `CausticMesh` holds of one view's light of one bounce, as `_light` tells it."""
+    """Return the arrays of a `CausticMesh` for one view and one bounce.
+
+    `lit` is the tuple (faces, flux, reflection, bounce, receivers) of that bounce; `reach` is the size of all faces.
+    """
     faces, flux, seen, number, receivers = lit
     light, corners = faces.light, faces.corners()
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -74,7 +82,7 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
     irradiance = balanced(irradiance, on_faces(flux[kept], faces.beside[kept], faces.triangles[kept]),
                           faces.triangles[kept], shown_area(corners, area[kept], reach))
     breathe()
-    # turned to the side that is lit
+    # order the corners so that normals point to the lit side
     over = (side.sum(axis=1) < 0.0) != (dot(normal[:, kept], faces.normal[:, kept]) < 0.0)
     order = np.where(over[:, None], (0, 2, 1), (0, 1, 2))
     triangles, irradiance = (np.take_along_axis(values, order, axis=1) for values in (
@@ -101,23 +109,23 @@ def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh],
 
 
 def _met(seen: ReflectionMesh, face: np.ndarray) -> np.ndarray:
-    """Triangles (m, b) of mirrors that the light of faces (m,) of a reflection meets."""
-    assert seen.later_mirrors is not None  # a lamp's view tells them
+    """Return the indices (m, b) of the mirror triangles that the light of `face` (m,) of a reflection hits."""
+    assert seen.later_mirrors is not None  # reflections in a `LampView` have them
     return np.column_stack((seen.mirror_face[face], seen.later_mirrors[face]))
 
 
 def _directions(ray_map: ReflectionMap, faces: LitFaces, kept: np.ndarray) -> np.ndarray:
-    """Unit vectors (m, 3, 3) in which light comes to the corners of the faces that are `kept` (m,)."""
+    """Return the unit directions (m, 3, 3) of light at the corners of the faces `kept` (m,), as [face, corner, xyz]."""
     return np.stack([unit(ray_map.rays(faces.face[kept], faces.light.uv[:, corner, kept])).T for corner in range(3)],
                     axis=1)
 
 
 def _weights(receivers: TriangleMesh, source: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (m, 3, 3) of corners in their source triangles, none negative."""
+    """Return barycentric coordinates (m, 3, 3) of `corners` (m, 3, 3) in triangles `source` (m,), none negative."""
     ends = [columns(rows(receivers.positions), corner)[:, None] for corner in receivers.triangles[source].T]
     places, (seen, column) = corners.transpose(2, 1, 0), distinct(source)
     weights = SceneFrames.of(receivers, seen).weights_within(column, places)
-    # beside a sliver that tells little of where along it a corner lies
+    # in slivers these are inexact along the long sides: move the point along each side to the nearest place
     for one, other in ((0, 1), (1, 2), (2, 0)):
         breathe()
         along = ends[other] - ends[one]

@@ -1,4 +1,4 @@
-"""Lamps as eyes: views that see all of a mirror, each its own part where one cannot."""
+"""Lamps as eyes: one view from the lamp that sees all of a mirror, or six views around the lamp."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -10,28 +10,28 @@ from ..geometry import TriangleMesh, following
 from ..support import LARGEST, ReflectionError, numbers
 from ..views import LampView, View
 
-WIDEST = 0.9  # radians off the view's middle; a mirror that spans more is seen by six views round the lamp
-MARGIN = 1.01  # of the mirror's picture, so that it lies within the borders
+WIDEST = 0.9  # radians from the view's axis; a mirror that spans more is seen by six views around the lamp
+MARGIN = 1.01  # picture size in multiples of the mirror's size, so that the mirror lies within the borders
 
 
 @dataclass(frozen=True)
 class Lamp:
-    """A place that light comes from, or the direction of parallel light.
+    """A point light, or a sun with parallel light.
 
     Parameters
     ----------
     place : (3,) float64
-        World position; of a sun the direction that its light goes in.
+        World position; for a sun the direction in which its light travels.
     sun : bool
     pattern : callable, optional
-        How much light goes towards places (..., 3) in world space; 1 everywhere where there is none.
+        Takes places (..., 3) in world space and returns the relative intensity (...) towards them. Default: 1.
     narrow : float
-        In radians: what the pattern holds is not narrower.
+        Angular width of the pattern's smallest details, in radians.
     cone : (3,) float64 and float, optional
-        Axis, a unit vector in world space, and half angle in radians of a cone beyond which the pattern is zero.
+        Axis, a unit vector in world space, and half angle in radians of a cone outside of which the pattern is zero.
     places : int
-        Of how many of a larger lamp it is one. The light of all adds up, and errors even out in it: each may be
-        coarser.
+        Number of point samples of the area lamp that this lamp is one of. Errors average out in the sum of their
+        light, so each may be coarser.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class Lamp:
 
     @classmethod
     def shining(cls, direction) -> Lamp:
-        """A sun whose light goes in a direction (3,)."""
+        """Return a sun whose light travels in a `direction` (3,) of any length."""
         lamp = cls(direction, True)
         length = np.linalg.norm(lamp.place)
         if not length > 0.0:
@@ -64,27 +64,30 @@ class Lamp:
         return cls(lamp.place / length, True)
 
     def moved(self, offset: np.ndarray) -> Lamp:
-        """The same beside something that moves by `offset` (3,)."""
+        """Return the lamp translated by `offset` (3,) with its pattern; a sun keeps its direction."""
         pattern = self.pattern
         return replace(self, place=self.place if self.sun else self.place + offset,
                        pattern=None if pattern is None else lambda places: pattern(places - offset))
 
     def share(self, places: np.ndarray) -> np.ndarray:
-        """How much of the light goes towards places (..., 3)."""
+        """Return the relative intensity (...) towards `places` (..., 3) in world space."""
         return np.ones(places.shape[:-1]) if self.pattern is None else self.pattern(places)
 
     def mean_share(self, corners: np.ndarray) -> np.ndarray:
-        """The same for all of triangles (m, 3, 3)."""
+        """Return the mean of `share` (m,) over triangles with `corners` (m, 3, 3)."""
         middles, middle = 0.5 * (corners + following(corners)), corners.mean(axis=1)
         return mean_of_seven(self.share(corners).T, self.share(middles).T, self.share(middle))
 
     def directions(self, places: np.ndarray) -> np.ndarray:
-        """From the lamp to `places` (n, 3), as long as the way; of a sun unit vectors."""
+        """Return vectors (n, 3) from the lamp to `places` (n, 3); for a sun, unit vectors along its light."""
         return np.broadcast_to(self.place, places.shape) if self.sun else places - self.place
 
     def views(self, mirror: TriangleMesh, shades: TriangleMesh | None, screens: TriangleMesh | None,
               detail: int) -> list[LampView]:
-        """Views that see the mirror from the lamp, `detail` pixels wide."""
+        """Return views that together see all of the mirror from the lamp, `detail` pixels wide.
+
+        `shades` are the occluders between the lamp and the mirror, `screens` those after the mirror.
+        """
         corners = mirror.positions[np.unique(mirror.triangles)]
         low, high = corners.min(axis=0), corners.max(axis=0)
         middle = 0.5 * (low + high)
@@ -120,8 +123,9 @@ class Lamp:
 
 
 def mean_of_seven(corners: np.ndarray, middles: np.ndarray, middle: np.ndarray) -> np.ndarray:
-    """The mean (m,) over triangles of what is known at their corners (3, m), in the middles of their sides (3, m) and
-    in their own (m,); exact for cubics.
+    """Return the mean (m,) over triangles of a function, by a quadrature rule that is exact for cubics.
+
+    The function is given at the corners (3, m), at the midpoints of the sides (3, m), and at the centroids (m,).
 
     A. Stroud, "Approximate Calculation of Multiple Integrals", 1971.
     """
@@ -129,13 +133,13 @@ def mean_of_seven(corners: np.ndarray, middles: np.ndarray, middle: np.ndarray) 
 
 
 def _round(place: np.ndarray, mirror: TriangleMesh) -> bool:
-    """Whether the mirror's box holds a place, so that some of it may lie any way."""
+    """Return True if `place` (3,) lies in the mirror's bounding box: parts of the mirror may lie in any direction."""
     corners = mirror.positions[mirror.triangles].reshape(-1, 3)
     return bool(((place > corners.min(axis=0)) & (place < corners.max(axis=0))).all())
 
 
 def _side(place: np.ndarray, axis: int, sign: float, size: tuple[int, int]) -> View:
-    """One of the six views round a place; all borders lie in planes x = y, x = z or y = z through it."""
+    """Return the view from `place` (3,) along an axis, one of six; its borders lie in planes x = y, x = z or y = z."""
     placement, projection = np.eye(4), np.zeros((4, 4))
     placement[:3, :3] = np.roll(np.eye(3), axis + 1, axis=0) * (1.0, -sign, -sign)
     placement[:3, 3] = place

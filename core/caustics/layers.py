@@ -1,17 +1,24 @@
-"""How many faces of light lie over each other."""
+"""Count of overlapping caustic faces."""
 from __future__ import annotations
 
 import numpy as np
 
 from ..support import portions
 
-SAMPLES = 256  # faces in whose middles it is counted
+SAMPLES = 256  # faces whose centroids are tested
 AT_ONCE = 1 << 20
-SLIVER = 1e-6  # of the square of its size: what a face is larger than, that hides anything
+SLIVER = 1e-6  # doubled area over squared size: thinner faces are ignored
 
 
 def most_layers(positions: np.ndarray, triangles: np.ndarray, source_face: np.ndarray) -> int:
-    """The most faces (m, 3) over each other on one triangle of what is lit, `source_face` (m,), where it was looked."""
+    """Return the largest number of caustic faces that overlap at a sampled point of one receiver triangle.
+
+    Parameters
+    ----------
+    positions : (n, 3) float, vertices
+    triangles : (m, 3) int, the faces
+    source_face : (m,) int, receiver triangle of each face
+    """
     asked = np.unique(np.linspace(0, len(triangles) - 1, SAMPLES).astype(np.int64))
     corners = positions[triangles].astype(np.float64)
     a, b, c = np.moveaxis(corners, 1, 0)

@@ -1,9 +1,9 @@
-"""Faces split until their irradiance is nearly linear in each, and so finely towards a caustic, where it is infinite.
+"""Splitting of caustic faces until the irradiance is nearly linear in each; near a caustic the faces get very small.
 
-Sides are split on both their faces. Those on a side of a receiver's triangle are straight there, and are split in the
-middle; Newton's method tells where the lamp sees it. All others, along the mirror's triangles and what hides, are
-straight in the lamp's picture, and the ray through the middle there tells where its light falls. So the faces have
-their exact share of the picture, which is the flux.
+A side is split in both of its faces. Sides on a side of a receiver's triangle are straight on the receiver. They are
+split at their midpoint, and Newton's method finds the midpoint's place in the lamp's picture. All other sides, along
+mirror triangles and occluders, are straight in the lamp's picture. The ray through the midpoint there finds the lit
+point. So each face keeps its exact area in the lamp's picture, which is its flux.
 """
 from __future__ import annotations
 
@@ -32,30 +32,30 @@ from .corners import Corners, light_at
 from .lamps import Lamp
 
 LEVELS = 6
-STRAYING = 0.02  # of the irradiance in the middle of a side: by how much that on its ends may miss it
+STRAYING = 0.02  # relative error allowed between the irradiance at a side's midpoint and the mean of its ends
 AT_ONCE = 1 << 14
-STEPS = 8  # of Newton's method
-BESIDE = 1e-9  # barycentric: what lies that little beside a triangle lies in it
-OFF = 0.02  # barycentric: by how much more than its ends a side's middle may lie beside the mirror's triangle
+STEPS = 8  # Newton steps
+BESIDE = 1e-9  # barycentric tolerance: points this little outside of a triangle count as inside
+OFF = 0.02  # barycentric: a side's midpoint may lie this much farther outside of the mirror's triangle than its ends
 
 
 @dataclass(frozen=True)
 class LitFaces:
-    """Faces of one map.
+    """Lit faces on the receivers that one reflection map shows.
 
     Attributes
     ----------
-    triangles : (m, 3) int64
-    points : (3, n) float64, of the vertices, on the receivers
-    face : (m,) int64, of the map
+    triangles : (m, 3) int64, vertices of the faces
+    points : (3, n) float64, vertices on the receivers, in world space
+    face : (m,) int64, face of the map
     normal : (3, m) float64, unit normal of the receiver
     source : (m,) int64, triangle of the receivers
     origin : (m,) int64, the face of the reflection that each is a part of
-    on_side : (m, 3) bool, which of the sides 01, 12, 20 lie on a side of their receiver's triangle
+    on_side : (m, 3) bool, True for the sides 01, 12, 20 that lie on a side of their receiver's triangle
     beside : (m, 3) float64
-        Their light that falls beyond the sides 01, 12, 20, for those that are straight in the lamp's picture are curves
-        on the receiver; negative where it ends before them. Not a number until it has been asked for.
-    light : Corners, of the corners
+        Flux between the straight sides 01, 12, 20 and their true curves on the receiver; negative if the curve lies
+        inside of the face. NaN until it is computed.
+    light : Corners, light at the faces' corners
     """
 
     triangles: np.ndarray
@@ -72,15 +72,26 @@ class LitFaces:
         return len(self.face)
 
     def corners(self, chosen: np.ndarray | slice = slice(None)) -> np.ndarray:
-        """(3, 3, k) of the faces `chosen`, as [component, corner, face]."""
+        """Return the corners (3, 3, k) of the faces `chosen` in world space, as [component, corner, face]."""
         return columns(self.points, self.triangles[chosen].T)
 
 
 def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, lamp: Lamp, least: tuple[float, float],
             most: int) -> tuple[LitFaces, bool]:
-    """The faces in parts; for none that carries less than the `least` flux, or on sides of less than the least length,
-    and not in more than `most`. And whether that ended it."""
-    with np.errstate(divide="ignore", invalid="ignore"):  # what has no area is not lit
+    """Split faces until their irradiance is nearly linear.
+
+    Parameters
+    ----------
+    ray_map : ReflectionMap
+    least : (float, float), smallest flux of a face and smallest length of a side that are split
+    most : int, largest number of faces
+
+    Returns
+    -------
+    faces : LitFaces
+    bounded : bool, True if `most` stopped the refinement
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):  # receiver triangles without an area are never lit
         within = SceneFrames.of(receivers, np.arange(len(receivers.triangles)))
     new, bounded = np.ones(len(faces), dtype=bool), False
     for _ in range(LEVELS):
@@ -113,7 +124,11 @@ def refined(ray_map: ReflectionMap, faces: LitFaces, receivers: TriangleMesh, la
 
 def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[float, float],
             lamp: Lamp) -> np.ndarray:
-    """On which sides (k, 3) of the faces asked the irradiance in the middle is not that between the ends."""
+    """Return True (k, 3) for sides of the faces `asked` (k,) whose irradiance is not linear.
+
+    The irradiance at the midpoint (`middles`) is compared with the mean of both ends. Faces with less than the `least`
+    flux and sides shorter than the least length are False.
+    """
     ends, lit = faces.light.irradiance[:, asked].T, middles.irradiance.T
     corners = faces.corners(asked)
     with np.errstate(invalid="ignore"):
@@ -125,7 +140,9 @@ def _astray(faces: LitFaces, asked: np.ndarray, middles: Corners, least: tuple[f
 
 
 def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
-    """Which sides (k, 3) of the faces asked span more of the lamp's picture than what its pattern may hold."""
+    """Return True (k, 3) for sides of the faces `asked` (k,) that span a wider angle from the lamp than the details of
+    its pattern.
+    """
     if not np.isfinite(lamp.narrow):
         return np.zeros((len(asked), 3), dtype=bool)
     ways = faces.light.place[:, :, asked] - lamp.place[:, None, None]
@@ -135,8 +152,11 @@ def _wide(faces: LitFaces, asked: np.ndarray, lamp: Lamp) -> np.ndarray:
 
 
 def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.ndarray, found: np.ndarray) -> np.ndarray:
-    """The light (k, 3) between the sides of the faces asked and parabolas through their `points` (3, 3, k) as
-    [component, side, face]; none where these were not `found` (k, 3), or are on a caustic."""
+    """Compute the flux (k, 3) between straight sides of the faces `asked` (k,) and parabolas through their midpoints.
+
+    `points` (3, 3, k) are the true midpoints, as [component, side, face]. The flux is zero if a midpoint was not
+    `found` (k, 3), or lies on a caustic.
+    """
     corners = faces.corners(asked)
     after = following(corners)
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -148,8 +168,14 @@ def _beside(faces: LitFaces, asked: np.ndarray, middles: Corners, points: np.nda
 
 def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within: SceneFrames,
              lamp: Lamp) -> tuple[Corners, np.ndarray, np.ndarray]:
-    """The light in the middles of the sides 01, 12, 20 of the faces `asked` (k,), where these are, (3, 3, k) as
-    [component, side, face], and whether (k, 3) they were found."""
+    """Compute the midpoints of the sides 01, 12, 20 of the faces `asked` (k,), with their light.
+
+    Returns
+    -------
+    middles : Corners, light at the midpoints
+    points : (3, 3, k) float64, midpoints on the receivers in world space, as [component, side, face]
+    found : (k, 3) bool, True if the midpoint was found
+    """
     parts, points, found = [], [], []
     for portion in portions(max(len(asked), 1), AT_ONCE):
         part = asked[portion]
@@ -166,17 +192,17 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
         point[:, straight] = chord[:, straight]
         good = np.isfinite(point).all(axis=0)
         point[:, ~good] = chord[:, ~good]
-        # where light grazes, a line of the picture within the tolerance may run far out over the receiver's side
+        # at grazing angles a small error in the picture may put the point far outside of the receiver's triangle
         good &= straight | (within.weights(faces.source[own], point).min(axis=0) >= -BESIDE)
         own = np.flatnonzero(straight)
         s = dot(point[:, own] - origin[:, own], ray[:, own]) / np.maximum(dot(ray[:, own], ray[:, own]), 1e-300)
         place = start.copy()
         place[:, own], _ = ray_map.locate(face[own], start[:, own], s, point[:, own], STEPS)
         light = light_at(ray_map, face, place, point, normal, lamp)
-        # beyond its face Newton's method may have found another image
+        # far from its start, Newton's method may have found another image
         size = np.tile(np.ptp(uv, axis=1).max(axis=0), 3)
         good &= light.arrived & (np.abs(place - start).max(axis=0) <= 0.5 * size + 1e-12)
-        # nor does light come from beyond the mirror's triangle, but for what corners may lie beside it
+        # the ray must leave the mirror's triangle, up to the distance that the corners lie outside of it
         good &= _off(place) <= np.maximum(_off(uv), _off(following(uv))).ravel() + OFF
         parts.append(light.of_faces())
         points.append(point.reshape(3, 3, -1))
@@ -185,18 +211,30 @@ def _middles(ray_map: ReflectionMap, faces: LitFaces, asked: np.ndarray, within:
 
 
 def _off(uv: np.ndarray) -> np.ndarray:
-    """How far places (2, ...) lie beside their triangles, in barycentric coordinates; 0 within."""
+    """Return the distance (...) of places (2, ...) from their triangles, in barycentric coordinates; 0 inside."""
     return -np.minimum(least_weight(uv), 0.0)
 
 
 def _split(faces: LitFaces, edge: np.ndarray, chosen: np.ndarray,
            middles: tuple[np.ndarray, Corners, np.ndarray]) -> tuple[LitFaces, np.ndarray]:
-    """The faces split at the middles of the `chosen` edges, and the face that each lies in. Of the `middles` it is told
-    where each face (m,) has them, their light, and where they are."""
+    """Split the faces at the midpoints of the `chosen` edges.
+
+    Parameters
+    ----------
+    edge : (m, 3) int64, edges of the faces
+    chosen : (e,) bool, edges to split
+    middles : tuple
+        For each face its column in the next two, (m,) int64, or -1; light at the midpoints; the midpoints (3, 3, k).
+
+    Returns
+    -------
+    faces : LitFaces
+    parent : (n,) int64, the old face that each new one lies in
+    """
     place, light, points = middles
     parent, local = split(chosen[edge])
     vertex = numbered(len(chosen), chosen, faces.points.shape[1])
-    # of two faces the first tells where their side's middle is
+    # two faces share a side: take its midpoint from the first
     row, side = np.nonzero(chosen[edge] & (place >= 0)[:, None])
     _, first = np.unique(edge[row, side], return_index=True)
     new = points[:, side[first], place[row[first]]]

@@ -26,9 +26,9 @@ from ..geometry import (
 from ..result import ReflectionMesh
 from .energy import SINGLE
 
-THINNEST = 8.0 * SINGLE  # width over the extent
-ODD = np.array((0.6180, 0.7071, 0.3437))  # a direction
-AT_ONCE = 1 << 20  # pairs of an edge and a vertex
+THINNEST = 8.0 * SINGLE  # width of a sliver, as share of the picture's and of the lit region's size
+ODD = np.array((0.6180, 0.7071, 0.3437))  # sort direction that is parallel to no typical edge
+AT_ONCE = 1 << 20  # pairs of an edge and a vertex per chunk
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Stitched(ColumnArrays):
     ----------
     triangles : (m, 3) int64, between the vertices of the reflection
     origin : (m,) int64, the face of the reflection that each is a part of
-    on_side : (m, 3) bool, which of the sides 01, 12, 20 lie on a side of their receiver's triangle
+    on_side : (m, 3) bool, True for the sides 01, 12, 20 that lie on a side of their receiver's triangle
     """
 
     counting_axis = 0
@@ -49,13 +49,13 @@ class Stitched(ColumnArrays):
 
 
 def without_slivers(seen: ReflectionMesh) -> Stitched:
-    """Leave out faces that are thin both in the lamp's picture and on the receivers, and stitch those beside them.
+    """Drop faces that are thin both in the lamp's picture and on the receivers, and stitch their neighbours.
 
-    Faces that are thin in one of them alone are kept: near a focus they carry all of the light, and where light grazes
-    they cover all of the receiver.
+    Faces that are thin in only one of them are kept: near a focus they carry all light, and at grazing angles they
+    cover the receiver.
     """
     view = seen.maps[0].view
-    # lengths of 1 are the picture and what is lit
+    # scale both, so that the picture and the lit region have the size 1
     picture = np.pad(view.pixels(seen.mirror_position) / max(view.resolution), ((0, 0), (0, 1)))
     points = seen.reflected_position / max(np.ptp(seen.reflected_position, axis=0).max(initial=0.0), 1e-300)
     thin = _are_thin(picture[seen.triangles]) & _are_thin(points[seen.triangles])
@@ -65,7 +65,7 @@ def without_slivers(seen: ReflectionMesh) -> Stitched:
     whole = (triangles != following(triangles)).all(axis=1)
     faces = Stitched(triangles[whole], kept[whole], (seen.source_sides[kept] >= 0)[whole])
     inserted = _inserted(picture, points, faces.triangles, vertex[np.unique(slivers)])
-    # each time one side of a face is split
+    # a round splits one side of each face
     for _ in range(3):
         faces = _split(faces, *inserted, len(vertex))
     # a face may be split at its own third vertex
@@ -90,15 +90,17 @@ def merged(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np
 
 
 def _without_twins(triangles: np.ndarray) -> np.ndarray:
-    """Return the numbers (k,) of those triangles (m, 3) that have three vertices, of several with the same ones the
-    first: a mesh of Blender holds no others."""
+    """Return the indices (k,) of triangles (m, 3) with three different vertices, without duplicates.
+
+    A Blender mesh must not hold other faces. Of duplicates the first is kept.
+    """
     whole = np.flatnonzero((triangles != following(triangles)).all(axis=1))
     _, first = np.unique(np.sort(triangles[whole], axis=1), axis=0, return_index=True)
     return whole[np.sort(first)]
 
 
 def _are_thin(corners: np.ndarray) -> np.ndarray:
-    """Return True (m,) for triangles with `corners` (m, 3, 3) whose height is nothing beside a length of 1."""
+    """Return True (m,) for triangles with `corners` (m, 3, 3) whose height is negligible relative to a length of 1."""
     return 2.0 * areas(corners) <= THINNEST * edge_lengths(corners).max(axis=1, initial=0.0)
 
 
@@ -111,7 +113,7 @@ def _one_vertex(count: int, pairs: np.ndarray) -> np.ndarray:
 
 
 def _near(places: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """Pairs (p, 2) of `chosen` vertices (k,) that lie no further apart than a sliver is wide."""
+    """Find pairs (p, 2) of `chosen` vertices (k,) that lie no farther apart than the width of a sliver."""
     along = places[:, -3:] @ ODD
     chosen = chosen[np.argsort(along[chosen])]
     start, number = between(along[chosen], along[chosen], along[chosen] + THINNEST)
@@ -138,7 +140,7 @@ def _inserted(picture: np.ndarray, points: np.ndarray, triangles: np.ndarray,
     used[loose] = True
     ends = np.stack((triangles, following(triangles)), axis=2)[used[triangles] & used[following(triangles)]]
     ends = np.unique(np.sort(ends, axis=1), axis=0)
-    # along an odd direction few vertices lie between the ends of an edge that are not near it
+    # sort along a direction in which few vertices lie between the ends of an edge without being near it
     along = points @ ODD
     loose = loose[np.argsort(along[loose])]
     start, number = between(along[loose], along[ends].min(axis=1) - THINNEST, along[ends].max(axis=1) + THINNEST)
@@ -178,7 +180,7 @@ def _split(faces: Stitched, key: np.ndarray, vertex: np.ndarray, count: int) -> 
     step, face = ranges(np.zeros_like(number), number + 1)
 
     def corner(step: np.ndarray) -> np.ndarray:
-        """The vertices of side ab, the end a being the first."""
+        """Return the vertices at position `step` along side ab, counted from end a."""
         inner = start[face] + np.where(a < b, 0, number - 1)[face] + np.where(a < b, 1, -1)[face] * (step - 1)
         within = vertex[np.clip(inner, 0, len(vertex) - 1)]
         return np.where(step == 0, a[face], np.where(step > number[face], b[face], within))

@@ -1,7 +1,7 @@
-"""What cameras may see: pairs of a camera and a triangle, found by bounding cones of the camera's rays in trees.
+"""Culling: pairs of a camera and a triangle that it may see, found with bounding cones of the camera's rays in trees.
 
-In come cameras and meshes; out come candidates, pairs of a camera and a triangle with the linear functions that bound
-what the one sees of the other.
+Input are cameras and meshes. Output are candidates: pairs of a camera and a triangle, with the linear functions that
+bound the visible part of the triangle.
 """
 from .candidates import Candidates, inherited, overlapping
 from .mirrors_shown import MirrorsShown

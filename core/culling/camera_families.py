@@ -1,5 +1,4 @@
-"""What cameras may see of a scene: its tree is traced for families of them that lie side by side and look nearly the
-same way, together."""
+"""Culling of a scene for families of cameras: neighbours with similar rays traverse the scene's tree together."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -10,12 +9,21 @@ from ..cameras import Cameras
 from ..geometry import in_order
 from ..trees import Bound, Fronts, SceneTree, Shafts, Touching, bounded_trace, curve_leaves, depth_for
 
-FAMILY = 32  # cameras that are looked at together at the most, or about half as many
+FAMILY = 32  # largest number of cameras in a family; large groups are divided into families of at least about half
 
 
 def traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | None,
             asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> Touching:
-    """`bounded_trace` of cameras by families, without what turns away."""
+    """Find pairs of a camera and a triangle that may touch, with `bounded_trace` over families of cameras.
+
+    Parameters
+    ----------
+    tree : SceneTree
+    bound : Bound, limits on the number of pairs
+    fronts : Fronts, optional, drops triangles that turn their back to the rays
+    asked : callable, optional
+        Takes cameras (p,) and triangles (p,) and returns True (p,) for pairs to keep.
+    """
     family = _families(cameras)
     order = in_order(family)
     shafts = Shafts.around(cameras.select(order), float(tree.spheres[0][3, 0]))
@@ -31,7 +39,10 @@ def traced(tree: SceneTree, cameras: Cameras, bound: Bound, fronts: Fronts | Non
 
 
 def _families(cameras: Cameras) -> np.ndarray:
-    """(n,): cameras with the same number lie on one mirror triangle, and where these are many, close together."""
+    """Return the family number (n,) of each camera.
+
+    Cameras of a family lie on one mirror triangle. If a triangle has many cameras, nearby ones form a family.
+    """
     face = cameras.face
     many = np.flatnonzero(np.bincount(face)[face] > FAMILY)
     depth = depth_for(len(many), FAMILY // 2)

@@ -19,7 +19,7 @@ from ..support import INSIDE
 
 @dataclass(frozen=True)
 class Candidates(ColumnArrays):
-    """Pairs (p) that survive: at some corner of the camera each edge of the triangle is on the right side.
+    """Pairs (p) of a camera and a triangle that may overlap: each side of the triangle is inside at some corner.
 
     Attributes
     ----------
@@ -31,8 +31,8 @@ class Candidates(ColumnArrays):
     ahead : (3, p) float64, the distance a from corner i to the plane, positive on the side that the rays leave
     bend : (3, 3, p) float64, entry [j, k]: what the quadratic part adds to `sides` j halfway along the camera's edge
         from corner k to the next
-    outlines : (3, p) bool, sides that may bound what is seen: not those that the camera has no part of, nor those over
-        which a mirror goes on
+    outlines : (3, p) bool, True for sides of the triangle that may bound its visible part; False for sides outside of
+        the camera, and for sides across which a mirror continues
     """
 
     cameras: Cameras
@@ -46,31 +46,31 @@ class Candidates(ColumnArrays):
 
     @staticmethod
     def unknown(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:
-        """Pairs (n,) of which nothing is known but that the camera shows the triangle, and clipping leaves it whole."""
+        """Return pairs (n,) without clipping data: the camera sees the triangle, and clipping leaves it whole."""
         count = len(camera)
         return Candidates(cameras, frames, camera, column, np.zeros((3, 3, count)), np.ones((3, count)),
                           np.zeros((3, 3, count)), np.ones((3, count), dtype=bool))
 
     def on(self, cameras: Cameras, now: np.ndarray) -> Candidates:
-        """The pairs on other `cameras`, of which `now` (n,) tells the numbers of ours, -1 for those that are gone."""
+        """Return the pairs on other `cameras`; `now` (n,) is the new index of each old camera, -1 if it was dropped."""
         kept = self.select(now[self.camera] >= 0)
         return replace(kept, cameras=cameras, camera=now[kept.camera])
 
     @cached_property
     def rate(self) -> np.ndarray:
-        """(3, p): b at the cameras' corners."""
+        """b at the cameras' corners, (3, p)."""
         return self.sides.sum(axis=0)
 
     @cached_property
     def room(self) -> np.ndarray:
-        """(3, p): no more than this does the quadratic part add to `sides` j anywhere in the camera."""
+        """Bound (3, p) on the quadratic part of `sides` j anywhere in the camera."""
         return _room(self.bend)
 
 
 def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> Candidates:
-    """The pairs among (camera, column) that may overlap; all their sides may bound what is seen.
+    """Return the pairs among (camera, column), (p,) each, that may overlap; all their sides count as outlines.
 
-    A pair whose camera lies across the triangle's plane comes twice, once for each side of it.
+    A pair whose camera crosses the triangle's plane is returned twice, once for each side of the plane.
     """
     corners = cameras.corners[camera].T
     x, y, z = frames.coordinates(column, columns(cameras.origins, corners))
@@ -98,8 +98,11 @@ def overlapping(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, colum
 
 def inherited(camera: np.ndarray, column: np.ndarray, parent: np.ndarray,
               child: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of the cameras `child` (k,) with what their parents (k,) are paired with, `camera` and `column` (p,), each
-    once: a camera across a triangle's plane stands twice among the pairs."""
+    """Pair the cameras `child` (k,) with the triangles of their `parent` cameras (k,).
+
+    `camera` and `column` (p,) are the pairs of the parents. Return cameras and columns of the new pairs without
+    duplicates: a camera that crosses a triangle's plane is listed twice.
+    """
     order = in_order(camera)
     entry, run = ranges(*between(camera[order], parent, parent))
     count = max(int(column.max(initial=0)) + 1, 1)

@@ -1,4 +1,4 @@
-"""Opacities of what rays may meet: whose triangles hide what lies behind them, from the eye and from mirrors."""
+"""Opacities of triangles that rays may hit: whether they hide objects behind them from the eye and from mirrors."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class Opacities:
         return cls(of_scene, of_scene)
 
     def with_pieces(self, sources: list[np.ndarray]) -> Opacities:
-        """The same with pieces behind the scene's triangles, of the triangles `sources`, arrays (k,) in that order."""
+        """Return a copy with appended pieces; `sources` lists arrays (k,) of the triangles that they are pieces of."""
         if self.of_scene is None:
             return self
         return Opacities(self.of_scene, np.concatenate([self.of_scene, *(self.of_scene[some] for some in sources)]))
@@ -41,11 +41,11 @@ class Opacities:
         return self.of_scene is None
 
     def stops_light(self, triangle: np.ndarray) -> np.ndarray:
-        """Return True for triangles (n,) that hide what lies behind them from mirrors."""
+        """Return True (n,) for triangles that hide objects behind them from mirrors."""
         return self._is_one_of(triangle, Opacity.UNSEEN, Opacity.OPAQUE)
 
     def not_to_cover(self, triangle: np.ndarray) -> np.ndarray:
-        """Return True for triangles (n,) in front of mirrors that the eye sees, so that layers must not cover them."""
+        """Return True (n,) for triangles that the eye sees, so that layers on a mirror must not cover them."""
         return self._is_one_of(triangle, Opacity.OPEN, Opacity.OPAQUE)
 
     def _is_one_of(self, triangle: np.ndarray, one: Opacity, other: Opacity) -> np.ndarray:

@@ -1,7 +1,7 @@
-"""What whole faces leave of the diffuse scene to the cameras of their patch: triangles, and pieces of triangles.
+"""Triangles and pieces of triangles of the diffuse scene that the cameras of a patch still have to show.
 
-All other cameras see the scene as it is. Where both meet is a straight side of a mirror triangle: whatever nodes lie
-along it, no crack is seen there.
+The patch shows all other triangles as unclipped triangles. Cameras outside of the patch see the whole scene. The border
+between both is a straight side of a mirror triangle, so no cracks are seen there, wherever nodes lie along it.
 """
 from __future__ import annotations
 
@@ -22,14 +22,13 @@ class ScenePieces:
     Attributes
     ----------
     mesh : TriangleMesh
-        The pieces between the scene's vertices and, numbered behind these, the nodes that triangles were split at.
-    source : (k,) int64, the triangle of the scene that each is a piece of, or is
+        The pieces, on the scene's vertices, followed by the nodes at which triangles were split.
+    source : (k,) int64, the triangle of the scene that each piece lies in, or is equal to
     merged : (m, 3) int64, optional
-        The scene's triangles between the vertices that stand for their corners, where small parts have been drawn
-        together: pieces are pieces of these.
-    on_patch : (m,) bool, the mirror's triangles on which nothing but these pieces is left to show
-    cells : PictureCells, where in the picture on the patch pieces are seen
-    open : (m,) bool, triangles of the patch on which pieces may be seen elsewhere too
+        The scene's triangles on merged vertices, if small details were merged: pieces are parts of these triangles.
+    on_patch : (m,) bool, True for mirror triangles on which only these pieces are left to show
+    cells : PictureCells, marked where pieces are seen in the picture of the patch
+    open : (m,) bool, True for triangles of the patch on which pieces may also be seen outside of the marked cells
     """
 
     mesh: TriangleMesh
@@ -44,10 +43,10 @@ class ScenePieces:
         return SceneTree.of_ordered(self.mesh)
 
     def holds(self, cameras: Cameras) -> np.ndarray:
-        """Which cameras (n,) lie on the patch, where light has met one mirror."""
+        """Return True (n,) for cameras on the patch; always False after the first bounce."""
         return self.on_patch[cameras.face] if cameras.mirror_map.bounce == 1 else np.zeros(len(cameras), dtype=bool)
 
     def shown(self, cameras: Cameras) -> np.ndarray:
-        """Which cameras (n,) of the patch may show some of them."""
+        """Return True (n,) for cameras of the patch that may show some of the pieces."""
         spots = rows(np.clip(np.nan_to_num(cameras.view.pixels(cameras.places.T)), -1e9, 1e9))[:, cameras.corners]
         return self.open[cameras.face] | self.cells.touched(spots.min(axis=2), spots.max(axis=2))

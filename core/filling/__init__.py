@@ -1,7 +1,7 @@
-"""The talk's holes filled with rays: what is too crowded to be cut, within limits of work and memory; and probes.
+"""Ray-sampled fallback for cameras with too many triangles, the limits on work and memory, and probes of the result.
 
-In come candidates; out come those that can be cut, and cells of the picture that show what rays through them meet. Of
-a result, probes tell which rays see something that no face shows. C. Mei, talk, 2006.
+Input are candidates. Output are the candidates that can be clipped, and cells of the picture that show the triangles
+hit by rays. Probes count the rays that see an object which no face of the result shows. C. Mei, talk, 2006.
 """
 from .crowds import Crowds
 from .limits import Limits

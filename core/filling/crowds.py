@@ -1,10 +1,11 @@
-"""Filling: cameras that are not cut are shown by rays, the talk's holes.
+"""Ray-sampled fallback for cameras in which triangles are not clipped (the holes of C. Mei's talk).
 
-Two kinds are not: those in which more lies over one another than the picture can show or the memory holds, and those
-of a pixel in which outlines are bent still, as where rays cross on a caustic. They are cut along squares of less than a
-pixel, and in each of them a face of the mirror shows the one triangle that the ray through the square's middle meets
-first, or that through the middle of its first cell where other faces lie there. So the work is bounded by the picture:
-where too many lie in the squares, these are the pixels, and all faces that lie in one share its ray.
+Two kinds of cameras are sampled by rays. In the first kind, more triangles overlap than the picture can show or the
+memory can hold. The second kind has the size of a pixel and still has curved outlines, as where rays cross on a
+caustic. These cameras are cut along squares smaller than a pixel. In each square, a face of the mirror shows the one
+triangle that the ray through the square's centre hits first. If other faces lie at the centre, the ray goes through the
+centre of the face's first cell. So the picture bounds the work: with too many cells the squares are pixels, and all
+faces in a square share one ray.
 """
 from __future__ import annotations
 
@@ -31,29 +32,29 @@ from .picture_squares import SquareGrid
 from .square_cells import cells_and_triangles
 from .whole_squares import WholeSquares
 
-LOOK = 1.0 / 8.0  # of the work for a candidate: that of looking at a pair that may become one
-TESTS = 2.0  # of a cone and a triangle, to a pair
-# of the work for a candidate: that of asking whether a mirror hides it, at the most and as a rule
+LOOK = 1.0 / 8.0  # cost of testing a pair that may become a candidate, relative to a candidate
+TESTS = 2.0  # tests of a cone and a triangle per pair found
+# cost of testing if one mirror hides a candidate, relative to a candidate: the largest and the usual one
 HIDING, USUALLY = 1.0 / 4.0, 1.0 / 16.0
-OVERLAPPING = 24  # of the mirrors in a camera: more hardly lie over one and the same polygon
-CROSSED = 2.0 / np.pi  # half as many lines of a square grid as a line of any direction crosses in its side's length
-CELLS = 4  # for each ray, where faces of the mirror may share one
+OVERLAPPING = 24  # largest number of mirrors in a camera that count: more hardly overlap the same polygon
+CROSSED = 2.0 / np.pi  # half the mean number of grid lines that a line crosses per side length of the grid
+CELLS = 4  # cells per ray, where faces of the mirror may share a ray
 
 
 class Crowds:
-    """Cameras that are too crowded to be cut, collected until rays fill them.
+    """Collection of cameras with too many triangles to clip; at the end rays sample them.
 
     Parameters
     ----------
     met : SceneAndMirrors
     limits : Limits
     last : bool
-        Light which meets a mirror goes no further.
+        True for the last bounce: rays that hit a mirror end there.
 
     Attributes
     ----------
-    dense : int, cameras in pixels in which rays are less work
-    given_up : int, cameras beyond the limits
+    dense : int, number of cameras in pixels that cost less with rays
+    given_up : int, number of cameras beyond the limits
     """
 
     def __init__(self, met: SceneAndMirrors, limits: Limits, last: bool) -> None:
@@ -65,26 +66,30 @@ class Crowds:
         return sum(map(len, self._cameras))
 
     def without_most(self, cameras: Cameras) -> Cameras:
-        """The cameras within the limits."""
+        """Collect the cameras of least picture area that exceed the limit on cameras, and return the others."""
         crowd = crowded(np.ones(len(cameras)), picture_areas(cameras), self.limits.cameras)
         self._cameras.append(cameras.select(crowd))
         return cameras.select(~crowd)
 
     def bound(self, cameras: Cameras) -> Bound:
-        """What may be looked for in the cameras; where no square is whole, rays show many cells, and all is looked
-        at."""
+        """Return the limits for the search of triangles in the cameras.
+
+        Without whole squares there is no limit per camera, because rays then have to show many cells.
+        """
         enough = TESTS * self.limits.dense / (LOOK * self.limits.square**2) * pixels_crossed(cameras)
         return Bound(self.limits.pairs, picture_areas(cameras), enough if _may_be_whole(cameras) else None)
 
     def full(self, cameras: Cameras, found: Touching) -> np.ndarray:
-        """Which cameras (n,) have too much to look at in what was found."""
+        """Return True (n,) for cameras with too many pairs in `found`."""
         self.dense += int(found.full.sum())
         looked = LOOK * np.bincount(found.cone, minlength=len(cameras))
         return found.given_up | found.full | self.dense_in(cameras, looked)
 
     def thinned(self, candidates: Candidates, crowd: np.ndarray) -> Candidates:
-        """Candidates within the limits, without those of the cameras that `crowd` (n,) names. Each mirror among them
-        may hide a part of all others in its camera."""
+        """Collect the cameras in `crowd` (n,) bool and those beyond the limits; return the candidates of the others.
+
+        The cost of a camera's candidates grows with its number of mirrors, each of which may hide a part of them.
+        """
         cameras = candidates.cameras
         count, hiding = (np.bincount(candidates.camera, weights, len(cameras))
                          for weights in (None, self.met.are_mirrors(candidates)))
@@ -98,7 +103,7 @@ class Crowds:
         return candidates
 
     def dense_in(self, cameras: Cameras, load: np.ndarray) -> np.ndarray:
-        """Which cameras (n,), of so much work each, lie in pixels in which that is more than rays would be."""
+        """Return True (n,) for cameras in pixels in which clipping costs more than rays; `load` (n,) is the cost."""
         pixel = pixels_held(cameras)
         work = np.bincount(pixel, load / pixels_crossed(cameras))
         dense = (load > 1.0) & (work[pixel] * self.limits.square**2 > self.limits.dense)
@@ -106,11 +111,13 @@ class Crowds:
         return dense
 
     def filled(self, candidates: Candidates) -> Filled:
-        """The candidates, and behind their cameras the cells of the crowds, each with the one triangle that it shows as
-        its candidate."""
+        """Sample the collected cameras by rays, and append their cells to the candidates.
+
+        Each cell has one candidate: the triangle that it shows.
+        """
         if not len(self):
             return Filled(candidates, np.zeros((0, 3), dtype=np.int64), 0, 0, False)
-        # all lie on corners that the cameras have too: whoever splits cameras adds corners behind those there are
+        # all collected cameras use corners of `cameras`, because splitting only appends corners
         cameras, frames = candidates.cameras, candidates.frames
         corners, face = (np.concatenate([getattr(crowd, name) for crowd in self._cameras])
                          for name in ("corners", "face"))
@@ -119,7 +126,7 @@ class Crowds:
         squares = WholeSquares.of(crowds, self.met, SquareGrid.over(crowds, size), self.last) \
             if _may_be_whole(crowds) else None
         cells, triangle, rays, corner_face = _shown(crowds, self.met, size, squares)
-        if self.last:  # what shows a mirror shows nothing
+        if self.last:  # drop cells that show a mirror
             scene = np.flatnonzero(triangle < self.met.diffuse)
             cells, triangle = cells.select(scene), triangle[scene]
         seen = np.union1d(frames.triangle, triangle)
@@ -135,17 +142,17 @@ class Crowds:
 
 @dataclass(frozen=True)
 class Filled:
-    """Candidates behind which stand cells that rays have filled.
+    """Candidates, followed by those of cells sampled by rays.
 
     Attributes
     ----------
     candidates : Candidates
     corner_face : (k, 3) int64
-        Of the last k cameras, which lie in whole squares: the mirror's triangle that each of their corners lies on.
-    rays : int, that were traced
-    pixels : int, that they have filled with the diffuse scene
+        For each corner of the last k cameras, which lie in whole squares: the mirror triangle that it lies on.
+    rays : int, number of rays traced
+    pixels : int, number of pixels that the cells fill with the diffuse scene
     less : bool
-        Whether that is less than was asked for: more coarsely than the tolerance, or instead of all of the geometry.
+        True if this is less than requested: coarser than the tolerance, or without hidden geometry.
     """
 
     candidates: Candidates
@@ -157,8 +164,15 @@ class Filled:
 
 def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
            squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int, np.ndarray]:
-    """Cells of crowded cameras in squares of `size` pixels, those in whole squares last, the triangle (m,) that each
-    shows, how many rays were traced, and the mirror's triangles (k, 3) of the corners of the last k."""
+    """Cut crowded cameras into cells along squares of `size` pixels, and trace rays to find the triangle of each cell.
+
+    Returns
+    -------
+    cells : Cameras, those of whole squares last
+    triangle : (m,) int64, the triangle that each cell shows
+    rays : int, number of rays traced
+    corner_face : (k, 3) int64, mirror triangles of the corners of the last k cells, which lie in whole squares
+    """
     cells, triangle, rays = cells_and_triangles(crowds, met, size, squares)
     if squares is None:
         return cells, triangle, rays, np.zeros((0, 3), dtype=np.int64)
@@ -169,19 +183,19 @@ def _shown(crowds: Cameras, met: SceneAndMirrors, size: float,
 
 
 def _may_be_whole(cameras: Cameras) -> bool:
-    """Whether a few faces may show a square, whatever number of the mirror's faces lies in it."""
+    """Return True if a square may be shown by a few faces, independent of the number of mirror faces in it."""
     return cameras.mirror_map.bounce == 1 and not isinstance(cameras.view, LampView)
 
 
 def _side(cameras: Cameras, limits: Limits) -> float:
-    """Of the squares through which rays fill the cameras, as many as the limits allow or a little more, in pixels."""
+    """Return the side in pixels of the squares that rays sample, so that about as many rays as allowed are needed."""
     most, size = limits.rays, limits.square
-    # a face of the mirror lies in about as many squares as its area holds, its edges cross more, and one
+    # a mirror face overlaps about as many squares as its area holds, plus those that its edges cross, plus one
     area, crossed = pixels_of(cameras).sum(), CROSSED * pixels_around_faces(cameras)
     faces = len(distinct(cameras.face)[0])
     if area / size**2 + crossed / size + faces <= most:
         return size
-    # an odd number of pixels, so that the ray through a pixel's middle is one of them; faces may share them
+    # use an odd number of pixels, so that the ray of a square goes through a pixel centre; faces may share rays
     room, crossed = (most, 0.0) if _may_be_whole(cameras) else (max(CELLS * most - faces, most / 2), crossed)
     needed = 2.0 * area / max(np.sqrt(crossed**2 + 4.0 * area * room) - crossed, 1e-300)
     return 1.0 + 2.0 * max(0.0, np.ceil(0.5 * (needed - 1.0)))

@@ -1,9 +1,10 @@
-"""How much work one reflection may be: what the picture can show of the mirror, and what the memory holds.
+"""Limits on the work for one reflection, from the mirror's size in the picture and from the memory.
 
 All limits are counts, so that the same input gives the same result on any machine. They grow with the picture of the
-mirror and with the meshes; no sample meets one, and Suzanne comes to a quarter of the limit on work. They are met
-where much lies over one another in few pixels, as in crowds of mirrors. There what is most crowded is shown by rays
-(`crowds`), and the result says so. Without a word rays show pixels in which they are less work than what they show.
+mirror and with the meshes. No sample scene reaches one; Suzanne reaches a quarter of the limit on work. They are
+reached where many triangles overlap in few pixels, as in crowds of mirrors. Then the most crowded cameras are sampled
+by rays (`crowds`), and the result reports it. Pixels in which rays cost less than clipping are sampled without a
+report.
 """
 from __future__ import annotations
 
@@ -13,34 +14,33 @@ import numpy as np
 
 from ..support import Settings
 
-# of arrays, at most at one time
+# peak size of all arrays, per candidate, pair, face, piece and triangle
 CANDIDATE_BYTES, PAIR_BYTES, FACE_BYTES, PIECE_BYTES, TRIANGLE_BYTES = 1400, 160, 1100, 400, 140
-LEAST = 1.0 / 4.0  # of the memory, whatever else takes it
-LATER = 1.0 / 2.0  # of the limits of a bounce: those of the next
-# pixels, where the tolerance is no less: the ray through a pixel's middle is that of a square then
+LEAST = 1.0 / 4.0  # share of the memory that is always used, even if meshes and earlier results take more
+LATER = 1.0 / 2.0  # factor from the limits of one bounce to those of the next
+# side of a square in pixels, if the tolerance is not smaller: the ray through a pixel's centre is that of a square then
 SQUARE, WIDE_SQUARE = 0.5, 1.0
-DENSE = 2.0  # candidates that take about as long as a ray and what it shows
+DENSE = 2.0  # number of candidates that cost as much as one ray and its cell
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Largest counts.
+    """Largest counts of one bounce.
 
     Attributes
     ----------
-    cameras : int, of a bounce, before its outlines are refined
-    pairs : int, of cones and triangles that touch
-    candidates : int, of cameras and triangles that overlap
+    cameras : int, cameras before outlines are refined
+    pairs : int, pairs of a cone and a triangle that touch
+    candidates : int, pairs of a camera and a triangle that overlap
     work : int, candidates, each counted once more for every four mirrors that may hide it
     faces : int
-    rays : int, through crowded cameras
-    square : float, in pixels, the side of the squares through which these rays go, where their number allows it
+    rays : int, rays through crowded cameras
+    square : float, side in pixels of the squares that these rays sample, if their number allows it
     dense : float
-        Work in such a square, from which on a ray through it shows all that is to be seen there; infinite where all of
-        the geometry is asked for.
+        Cost in such a square, in candidates, above which a ray samples it; infinite if hidden faces are requested.
     bounced : int, cameras of a later bounce
-    pieces : int, of the scene's triangles, whole faces among them
-    memory : int, bytes of arrays beside those of the meshes
+    pieces : int, pieces of the scene's triangles, including unclipped triangles
+    memory : int, bytes of arrays, without the meshes
     """
 
     cameras: int
@@ -57,7 +57,7 @@ class Limits:
 
     @classmethod
     def of(cls, settings: Settings, pixels: int, triangles: int) -> Limits:
-        """Limits for a mirror that is seen in so many pixels, of meshes with so many `triangles` altogether."""
+        """Return the limits for a mirror of so many `pixels` in the picture, and meshes of so many `triangles`."""
         memory, faces = 1e9 * settings.maximum_memory, settings.maximum_faces
         memory = max(memory - TRIANGLE_BYTES * triangles, LEAST * memory)
         return cls(int(min(10_000 + 4 * pixels, faces)),
@@ -71,12 +71,15 @@ class Limits:
                    np.inf if settings.hidden_faces else DENSE)
 
     def beside(self, held: int) -> Limits:
-        """The limits where so many bytes are held by what has been done."""
+        """Return the limits if earlier results hold so many bytes (`held`)."""
         room = max(self.memory - held, LEAST * self.memory)
         return replace(self, pairs=int(min(self.pairs, room / PAIR_BYTES)),
                        candidates=int(min(self.candidates, room / CANDIDATE_BYTES)))
 
     def of_next_bounce(self) -> Limits:
-        """Light that has met one mirror more shows less, each part of it smaller: rays show all but the largest."""
+        """Return the smaller limits of the next bounce.
+
+        Images after one more mirror are fewer and smaller, so rays sample all but the largest.
+        """
         later = {name: int(LATER * most) for name, most in vars(self).items() if isinstance(most, int)}
         return replace(self, **{**later, "cameras": later["bounced"]})

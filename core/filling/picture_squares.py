@@ -1,4 +1,4 @@
-"""Squares of the picture: cameras are cut along their sides, so that each part lies in one square."""
+"""A grid of squares in the picture; cameras are cut along its lines, so that each part lies in one square."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -10,20 +10,20 @@ from ..cameras import Cameras
 from ..polygons import ConvexPolygons, Line
 from ..support import breathe
 
-CUTS = 64  # halvings one after another: enough for 2^32 squares along both sides of the picture
-TOUCHING = 1e-6  # of a square: what reaches less far into it only touches it
-ASIDE = np.array([0.005, 0.0])  # squares: from the middle, where pixels look; far more than single precision rounds by
+CUTS = 64  # successive halvings: enough for 2^32 squares along both sides of the picture
+TOUCHING = 1e-6  # share of a square's side: polygons that overlap a square less only touch it
+ASIDE = np.array([0.005, 0.0])  # offset from the centre, in squares: off the pixel centres, far above single precision
 
 
 @dataclass(frozen=True)
 class SquareGrid:
-    """Squares of the picture round all that some cameras cover of it.
+    """A grid of squares that covers the pictures of some cameras.
 
     Attributes
     ----------
-    low : (2,) float64, where the first one begins, in pixels
-    side : float, in pixels
-    size : (width, height), in squares
+    low : (2,) float64, low corner of the first square, in pixels
+    side : float, side of a square, in pixels
+    size : (width, height), number of squares
     """
 
     low: np.ndarray
@@ -32,7 +32,7 @@ class SquareGrid:
 
     @classmethod
     def over(cls, cameras: Cameras, side: float) -> SquareGrid:
-        """Those of the squares with a `side` of so many pixels that lie in the picture whole."""
+        """Return the grid over the cameras of squares with a `side` in pixels that lie completely in the picture."""
         first = first_side(side)
         resolution = np.array(cameras.view.resolution, dtype=np.float64)
         pixels = np.clip(np.nan_to_num(cameras.view.pixels(cameras.places.T)), 0.0, resolution)[cameras.corners.ravel()]
@@ -42,26 +42,31 @@ class SquareGrid:
         return cls(first + low * side, side, (width, height))
 
     def spots(self, pixels: np.ndarray) -> np.ndarray:
-        """Places (2, ...) in the picture, as columns and rows of the grid."""
+        """Convert positions (2, ...) in pixels to columns and rows (2, ...) of the grid."""
         return (pixels - self.low.reshape(2, *(1,) * (pixels.ndim - 1))) / self.side
 
     def pixels(self, column: np.ndarray, row: np.ndarray) -> np.ndarray:
-        """(n, 2): where columns and rows (n,) lie in the picture."""
+        """Convert columns and rows (n,) of the grid to positions (n, 2) in pixels."""
         return self.low + self.side * np.stack((column, row), axis=1)
 
 
 def first_side(size: float) -> float:
-    """Where squares of `size` pixels begin, so that the first pixel's middle is in the middle of one: where pixels hold
-    a whole number of squares or squares an odd number of pixels, that is so for all."""
+    """Return the offset in pixels of a grid of squares of `size` pixels, such that square centres hit pixel centres.
+
+    The centre of the first pixel is the centre of a square. This holds for all pixels if a pixel is a whole number of
+    squares, or a square an odd number of pixels.
+    """
     return (0.5 - 0.5 * size) % size
 
 
 def in_squares(cameras: Cameras, size: float,
                done: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None) -> ConvexPolygons:
-    """The parts of cameras in squares of `size` pixels; beyond the picture nothing, and nothing that lies in boxes from
-    low to high (2, n) pixels that are `done`."""
+    """Cut cameras along squares of `size` pixels; parts outside of the picture are dropped.
+
+    `done` takes boxes from low to high (2, n), in pixels, and returns True (n,) for boxes whose polygons to drop.
+    """
     width, height = cameras.view.resolution
-    clip = cameras.view.clip(cameras.places.T)[cameras.corners.T]  # as (corner, camera, component)
+    clip = cameras.view.clip(cameras.places.T)[cameras.corners.T]  # [corner, camera, component]
     depth = clip[..., 3]
     across = np.stack((0.5 * width * (clip[..., 0] + depth), 0.5 * height * (clip[..., 1] + depth)))
     parts = ConvexPolygons.whole(len(cameras))
@@ -90,7 +95,7 @@ def in_squares(cameras: Cameras, size: float,
 
 
 def _reaches(parts: ConvexPolygons, across: np.ndarray, depth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The pixels (2, q) from and to which the parts reach."""
+    """Return the low and the high corner (2, q) of the parts' bounding boxes, in pixels."""
     of = parts.owner[parts.polygon]
     deep = (parts.weights * depth[:, of]).sum(axis=0)
     return parts.extents((parts.weights * across[:, :, of]).sum(axis=1) / np.where(deep > 0.0, deep, 1.0))

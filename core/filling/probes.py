@@ -1,7 +1,7 @@
-"""Probes: a few rays, traced backwards, that tell whether whole regions of the mirror are missing from the result.
+"""Probes: a few rays traced from the eye, to detect if whole regions of the mirror are missing from the result.
 
-They share nothing with the way that the result was made but the meshes and the law of reflection: neither cameras nor
-what was found to be visible.
+They are independent of the method: they use only the meshes and the law of reflection, neither cameras nor its results
+on visibility.
 """
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from ..support import breathe
 from ..trees import SceneTree, first_crossed
 from ..views import LampView, View
 
-ACROSS = 16  # probes along each side of the box round the mirror in the picture
-MARGIN = 1.0  # pixels that a face may end before a place that it covers
-PAIRS_AT_ONCE = 1 << 18  # of a face and a probe that it may cover
-SAME_PLACE = 1e-6  # of its distance from the eye
+ACROSS = 16  # probes along each side of the mirror's box in the picture
+MARGIN = 1.0  # pixels: a face also covers probes this close to it
+PAIRS_AT_ONCE = 1 << 18  # pairs of a face and a probe per chunk
+SAME_PLACE = 1e-6  # relative tolerance for equal distances from the eye
 
 
 def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: SceneAndMirrors,
                   mirror_position: np.ndarray, triangles: np.ndarray) -> tuple[int, int]:
-    """How many probes see a diffuse object in the mirror, and how many of them lie where no face shows anything.
+    """Count the probes that see a diffuse object in the mirror, and those of them that no face covers.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
                                                                                        met.mirrors.triangles)
     face, distance = first_crossed(met.mirror_tree if alone else SceneTree.of_ordered(mirror), origin, ray)
     asked = np.flatnonzero(face >= 0)
-    # what lies right behind an object that cuts through the mirror is not shown
+    # keep probes that see the mirror first: no object or other mirror is in front
     nearest = met.first_distances(origin[:, asked], ray[:, asked], alone)
     seen = asked[distance[asked] <= (1.0 + SAME_PLACE) * nearest]
     place = origin[:, seen] + distance[seen] * ray[:, seen]
@@ -46,7 +46,7 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
     shown, _ = met.first_met((place, flat * np.sign(dot(leaving, flat))), place, unit(leaving))
     wanted = (shown >= 0) & (shown < met.diffuse)
     if isinstance(view, LampView):
-        # nor is what no light falls on
+        # a lamp's probes count only where its light reaches the mirror
         wanted &= view.lights(np.repeat(place[:, None], 3, axis=1))
     expected = seen[wanted]
     covered = _covered(view.pixels(mirror_position)[triangles], low, step)
@@ -54,7 +54,7 @@ def missed_probes(view: View, mirror: TriangleMesh, mirror_map: MirrorMap, met: 
 
 
 def _lattice(view: View, mirror: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
-    """The low corner (2,) of the box round the mirror in the picture, and the distance of its probes."""
+    """Return the low corner (2,) of the mirror's box in the picture, and the distance (2,) of probes, in pixels."""
     used = mirror.positions[mirror.used]
     resolution = np.array(view.resolution, dtype=np.float64)
     low, high = np.zeros(2), resolution
@@ -65,7 +65,7 @@ def _lattice(view: View, mirror: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """Which probes a face with corners (m, 3, 2) in the picture covers."""
+    """Return True for probes that some face with `corners` (m, 3, 2), in pixels, covers; as an array of all probes."""
     places = (corners - low) / step - 0.5
     breathe()
     first = _numbers(np.ceil(smallest(places.swapaxes(0, 1)) - MARGIN / step))
@@ -91,5 +91,5 @@ def _covered(corners: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarr
 
 
 def _numbers(bound: np.ndarray) -> np.ndarray:
-    """Of the probes, where they are any, along both axes."""
+    """Convert bounds (m, 2) to columns and rows of probes, clamped to the range from -1 to `ACROSS`."""
     return np.clip(np.nan_to_num(bound), -1, ACROSS).astype(np.int64)

@@ -1,4 +1,4 @@
-"""What rays through places on the mirror show."""
+"""Triangles that rays through places on the mirror show."""
 from __future__ import annotations
 
 import numpy as np
@@ -8,14 +8,25 @@ from ..culling import SceneAndMirrors
 from ..geometry import in_order, norm, unit
 from ..result import DEPTH, GAP
 
-MOST_LAYERS = 32  # of clear triangles that one ray goes on through
-STEP = 1e-9  # of the way to a clear triangle: a ray goes on from so far behind it
+MOST_LAYERS = 32  # largest number of triangles that one ray hits, clear ones included
+STEP = 1e-9  # relative offset behind a clear triangle from which the ray continues
 
 
 def shown_triangles(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs (k,) of a place (3, n) on each camera, rising, and a triangle that the ray through it meets: the clear
-    ones, and the first that stops light; -1 where it meets none, or where the scene hides the place from as near as
-    layers slide: what is shown there would come out before it."""
+    """Find the triangles that the rays through one place on each camera show.
+
+    A place shows nothing if a scene object is so close in front of it that the layer would appear in front of the
+    object.
+
+    Parameters
+    ----------
+    places : (3, n) float64, one place on each camera, in world space
+
+    Returns
+    -------
+    place : (k,) int64, index of a place, rising; one entry for each triangle
+    triangle : (k,) int64, clear triangles, nearest first, and the first that is not clear; -1 for none
+    """
     view, (place, triangle) = cameras.view, met_in_turn(met, cameras, places)
     back = -view.directions(places.T).T
     away = norm(back)
@@ -25,8 +36,9 @@ def shown_triangles(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) 
 
 
 def met_in_turn(met: SceneAndMirrors, cameras: Cameras, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs (k,) of a place (3, n) on each camera, rising, and a triangle that the ray through it meets: the clear
-    ones, nearest first, and the first that stops light; -1 where it meets none."""
+    """Find the triangles that the rays through one place on each camera hit; the same results as `shown_triangles`,
+    without its test for objects in front.
+    """
     mirror_map, sides = cameras.mirror_map, met.upper_sides(cameras)
     origin, ray = mirror_map.leave(cameras.face, mirror_map.coordinates(cameras.face, places))
     own, ray, found = np.arange(len(cameras)), unit(ray), []

@@ -1,7 +1,7 @@
-"""Cells: the parts of crowded cameras in squares of the picture that they do not cover whole.
+"""Cells: the parts of crowded cameras in squares of the picture that they cover only partly.
 
-All cells of a square show the triangle that one ray meets. The cell that holds the square's middle has a corner there,
-a little aside, so that what the pixel shows is in its place.
+All cells of a square show the triangle that one ray hits. The cell that holds the square's centre gets a corner there,
+moved a little, so that the pixel shows the right point.
 """
 from __future__ import annotations
 
@@ -14,15 +14,23 @@ from .picture_squares import ASIDE, first_side, in_squares
 from .shown_triangles import shown_triangles
 from .whole_squares import WholeSquares
 
-SMALLEST = 1e-9  # square pixels: smaller cells are nothing
+SMALLEST = 1e-9  # square pixels: smaller cells are dropped
 
 
 def cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
                         squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, int]:
-    """Cells of crowded cameras, in those squares of `size` pixels that are not whole, that show something, the triangle
-    (m,) that each shows, and how many rays were traced for it. A cell comes once for each triangle that it shows."""
+    """Cut crowded cameras into cells along squares of `size` pixels, except in whole squares, and find their triangles.
+
+    A cell is returned once for each triangle that it shows.
+
+    Returns
+    -------
+    cells : Cameras
+    triangle : (m,) int64, the triangle that each cell shows
+    rays : int, number of rays traced
+    """
     cells, square, places = _cells(cameras, size, squares)
-    # a square may begin before the picture, where it has the number -1
+    # squares at the picture's border may have the number -1
     first, group = groups(*(square - square.min(axis=1, keepdims=True, initial=0)))
     place, triangle = shown_triangles(met, cells.select(first), places[:, first])
     middles = first_side(size) + (square[:, first].T + 0.5 + ASIDE) * size
@@ -33,9 +41,21 @@ def cells_and_triangles(cameras: Cameras, met: SceneAndMirrors, size: float,
 
 
 def _round_middles(cells: Cameras, some: np.ndarray, spots: np.ndarray) -> tuple[Cameras, np.ndarray]:
-    """The cells, those of `some` (n,) that hold spots (n, 2) of the picture as three round these, which have true rays;
-    and the cell that each was. Where rays at a cell's corners miss what the square shows, its corners show the nearest
-    of this, and the cell between them another place of it than the ray in its middle."""
+    """Divide cells that hold the centre of their square into three cells around it; the new corners have true rays.
+
+    Without this, a cell whose corner rays miss the triangle would show its centre at a wrong place, because these
+    corners are moved to the triangle's border.
+
+    Parameters
+    ----------
+    some : (n,) int64, cells
+    spots : (n, 2) float64, centres of their squares, in pixels
+
+    Returns
+    -------
+    cells : Cameras
+    cell : (m,) int64, the old cell of each new one
+    """
     places, holds = places_at(cells.select(some), spots)
     some, places = some[holds], places[:, holds]
     rest = ~mask(len(cells), some)
@@ -48,9 +68,17 @@ def _round_middles(cells: Cameras, some: np.ndarray, spots: np.ndarray) -> tuple
 
 def _cells(cameras: Cameras, size: float,
            squares: WholeSquares | None) -> tuple[Cameras, np.ndarray, np.ndarray]:
-    """The parts of the cameras in squares of `size` pixels of the picture, in which square (2, n) each lies, and places
-    (3, n) to look at: where the middle of the square is seen, and those first, the nearest ahead; else their own
-    middles."""
+    """Cut cameras along squares of `size` pixels, except in whole squares.
+
+    Cells that hold the centre of their square come first, the nearest before others.
+
+    Returns
+    -------
+    cells : Cameras
+    square : (2, n) int64, column and row of each cell's square
+    places : (3, n) float64
+        Place on each cell through which a ray may be traced: the square's centre, or else the cell's own centroid.
+    """
     view = cameras.view
     parent, weights = in_squares(cameras, size, None if squares is None else squares.holds).triangles(0.0)
     cells = with_pieces(cameras, np.zeros(len(cameras), dtype=bool), parent, weights)

@@ -1,10 +1,10 @@
-"""Squares of the picture that lie in crowds whole: a few faces each, not all parts of the mirror's triangles there.
+"""Squares of the picture that crowded cameras cover completely: a few faces each, instead of all parts of mirror faces.
 
-The crowds hold nine places of each, and the mirror is even between these. Their corners lie on whatever triangles
-of the mirror the eye sees there and have true rays. A ray through the middle tells what such a square shows. Two faces
-do where they show the middle in its place, else four lie round it. None of their corners and sides lies in the middle
-itself, where pixels are looked at: what four have in common is a little aside, and so are the corners that whole
-squares lie round.
+Crowded cameras cover nine sample places of each such square, and the mirror is continuous between these. The corners of
+a square lie on the mirror triangles that the eye sees there, and have true rays. A ray through the centre finds the
+triangle that the square shows. Two faces show the square if they show its centre in the right place, else four faces
+meet near its centre. No corner or side of the faces lies exactly at the centre, because engines sample pixel centres:
+the vertex that four faces share is moved a little, and so are corners with whole squares all around.
 """
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from ..views import Covered, View, planes
 from .picture_squares import ASIDE, TOUCHING, SquareGrid
 from .shown_triangles import shown_triangles
 
-HALF = 0.5  # of what layers slide at least, to be on the safe side
-SINKING = 4.0  # times that, what layers slide whose ways are no longer than nine times the eye's
-STRAYING = 0.25  # pixels: what the middle may be shown beside its place by
-# places of a square on the lattice, columns and rows; which of them are side by side; and those along a side
+HALF = 0.5  # safety factor on the smallest offset of layers towards the eye
+SINKING = 4.0  # multiple of that offset for layers with paths up to nine times as long as the eye's distance
+STRAYING = 0.25  # pixels: largest deviation of the centre in squares of two faces
+# lattice places of a square, as columns and rows; pairs of neighbours among them; the three places along each side
 NINE = np.indices((3, 3)).reshape(2, 9)[::-1]
 BESIDE = np.array([(one, one + step) for one in range(9) for step, ends in ((1, one % 3 < 2), (3, one < 6)) if ends]).T
 SIDES = np.array([(0, 1, 2), (0, 3, 6), (2, 5, 8), (6, 7, 8)]).T
@@ -33,19 +33,19 @@ TWO, FOUR = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 1, 4], [1, 2, 4], [2
 
 @dataclass(frozen=True)
 class WholeSquares:
-    """Cameras (m) in squares, on corners (c) of their own.
+    """Cameras (m) of whole squares, on c corners of their own.
 
     Attributes
     ----------
     grid : SquareGrid
     before : (height + 1, width + 1) int64
-        How many squares in which nothing more is to be shown lie before each row and column.
+        Summed-area table of the finished squares.
     corners : (m, 3) int64
-    face : (m,) int64, the mirror's triangle that the square's middle lies on
-    triangle : (m,) int64, the diffuse triangle that they show
-    places, origins, rays : (3, c) float64
-    corner_face : (c,) int64, the mirror's triangles that the corners lie on
-    traced : int, rays
+    face : (m,) int64, the mirror triangle that the square's centre lies on
+    triangle : (m,) int64, the diffuse triangle that each camera shows
+    places, origins, rays : (3, c) float64, of the corners, as in `Cameras`
+    corner_face : (c,) int64, the mirror triangles that the corners lie on
+    traced : int, number of rays traced
     """
 
     grid: SquareGrid
@@ -61,8 +61,10 @@ class WholeSquares:
 
     @classmethod
     def of(cls, cameras: Cameras, met: SceneAndMirrors, grid: SquareGrid, last: bool) -> WholeSquares:
-        """Squares of a grid in crowded cameras. Where light goes on, at no `last` bounce, those that show a mirror are
-        left out."""
+        """Find the whole squares of a grid in crowded cameras, and build their faces.
+
+        Before the `last` bounce, squares that show a mirror are left out.
+        """
         holders = Holders(cameras, grid, met.slide)
         square = holders.inner
         row, column = np.divmod(square, max(grid.size[0], 1))
@@ -91,7 +93,7 @@ class WholeSquares:
                    rays, face, len(square))
 
     def holds(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """Whether boxes from `low` to `high` (2, n) of the picture lie in whole squares."""
+        """Return True (n,) for boxes from `low` to `high` (2, n), in pixels, that lie in finished squares."""
         width, height = self.grid.size
         first = np.floor(self.grid.spots(low) + TOUCHING)
         end = np.maximum(np.ceil(self.grid.spots(high) - TOUCHING), first + 1.0)
@@ -101,15 +103,15 @@ class WholeSquares:
 
 
 class Holders:
-    """Which cameras hold what of a grid.
+    """Lookup of the camera at each corner and centre of a grid's squares.
 
     Attributes
     ----------
-    at_corners : (height + 1, width + 1) int32, the camera at the corners of the squares, -1 where there is none
-    in_middles : (height, width) int32, that in their middles
+    at_corners : (height + 1, width + 1) int32, the camera at each corner, -1 for none
+    in_middles : (height, width) int32, the camera at each centre, -1 for none
     inner : (n,) int64
-        The squares, row after row, that the cameras cover, all over one part of the mirror: nine places of each lie in
-        cameras, between those side by side the mirror does not leap, and it does not rise at the sides.
+        Squares, numbered row by row, that the cameras cover with one continuous part of the mirror. All nine places lie
+        in cameras, depth does not jump between neighbours, and no side bulges towards the eye.
     """
 
     def __init__(self, cameras: Cameras, grid: SquareGrid, slide: float) -> None:
@@ -117,15 +119,15 @@ class Holders:
         self._spots = grid.spots(rows(cameras.view.pixels(cameras.places.T)))[:, cameras.corners.T]
         lattice = self._at(2, np.zeros(2))
         self.inner = self._inner(lattice)
-        # copies: the lattice is four times as large
+        # copy, to free the lattice, which is four times as large
         self.at_corners, self.in_middles = lattice[::2, ::2].copy(), lattice[1::2, 1::2].copy()
 
     def _at(self, finer: int, shift: np.ndarray) -> np.ndarray:
-        """The camera at the columns and rows of a grid that is so many times `finer`, and a `shift` (2,) from there."""
+        """Return the camera (rows, columns) at the points of a grid `finer` times as fine, moved by `shift` (2,)."""
         width, height = finer * np.array(self.size) + 1
         spots = finer * (self._spots - shift.reshape(2, 1, 1)) + 0.5
         covered = Covered.of(spots, np.zeros(spots.shape[1:]), (width, height), False)
-        owner = np.full(width * height, -1, dtype=np.int32)  # of a picture's size: half of what int64 takes
+        owner = np.full(width * height, -1, dtype=np.int32)  # int32 to save memory: it has the picture's size
         owner[covered.pixel] = covered.face
         breathe()
         return owner.reshape(height, width)
@@ -141,9 +143,16 @@ class Holders:
         return np.delete(square, several[self._uneven(holder[several], spots[:, several])])
 
     def _uneven(self, holder: np.ndarray, spots: np.ndarray) -> np.ndarray:
-        """Whether of squares with nine `spots` (2, n, 9) of the lattice in the cameras `holder` (n, 9) two side by side
-        lie at depths that these cameras' planes do not lead to, or the middle of a side before its ends: by as much as
-        faces surely slide before the mirror."""
+        """Return True (n,) for squares with a depth jump or a side that bulges towards the eye.
+
+        Depth jumps between two neighbouring places if neither camera's plane leads to the other place. Differences
+        smaller than the offset of layers from the mirror do not count.
+
+        Parameters
+        ----------
+        holder : (n, 9) int, camera at each place
+        spots : (2, n, 9) int, column and row of each place on the lattice
+        """
         view = self.cameras.view
         depth = view.depths(self.cameras.places.T)[self.cameras.corners.T]
         slope, base = planes(2.0 * self._spots, -depth if view.orthographic else 1.0 / depth)  # linear in the picture
@@ -165,8 +174,19 @@ class Holders:
         return uneven
 
     def corners(self, whole: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The cameras (n,) at corners `point` (n,) of squares, the spots (n, 2) at which they hold them, and which of
-        these lie aside, since all squares round them are `whole` (height, width)."""
+        """Find the cameras at corners of squares.
+
+        Parameters
+        ----------
+        whole : (height, width) bool, whole squares
+        point : (n,) int64, corners, numbered row by row
+
+        Returns
+        -------
+        holder : (n,) int, the camera at each corner
+        spots : (n, 2) float64, column and row of the corner in the grid
+        moved : (n,) bool, True for corners moved aside, because all squares around them are whole
+        """
         aside = self._at(1, ASIDE)
         padded = np.pad(whole, 1)
         moved = padded[:-1, :-1] & padded[1:, :-1] & padded[:-1, 1:] & padded[1:, 1:] & (aside >= 0)
@@ -177,13 +197,20 @@ class Holders:
 
 def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray, np.ndarray],
               view: View) -> np.ndarray:
-    """(2, n): by what part of a diagonal the middle of a square is shown beside its place by faces on either side of
-    the first diagonal, and of the second; of squares with places and rays (3, n, 5) at corners and in the middle."""
+    """Return the deviation (2, n) of squares' centres if two faces meet along the first, or the second, diagonal.
+
+    The deviation is a share of the diagonal's length.
+
+    Parameters
+    ----------
+    triangle : (n,) int64, triangle that each square shows
+    five : tuple, places and rays (3, n, 5) at the four corners and the centre
+    """
     places, rays = five
     seen, column = distinct(triangle)
     frames, column = SceneFrames.of(met, seen), np.repeat(column, 5)
-    # a diagonal moves a point by as much as in a flat mirror at the middle, or less: from one triangle of the mirror to
-    # the next a point may leap
+    # bound the motion of a point along a diagonal by that in a flat mirror at the centre, because a point may jump from
+    # one mirror triangle to the next
     ways = view.directions(places.reshape(3, -1).T).T.reshape(places.shape)
     normal = unit(unit(rays[:, :, 4]) - unit(ways[:, :, 4]))[:, :, None]
     flat = _points(met, frames, column, places, ways - 2.0 * dot(ways, normal) * normal)
@@ -195,8 +222,10 @@ def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray
 
 
 def _sunk(places: np.ndarray, cameras: Cameras, slide: float) -> np.ndarray:
-    """(2, n): whether the middle of a diagonal of squares, with corners and a middle at (3, n, 5) places, lies deeper
-    behind the mirror than layers surely slide before it."""
+    """Return True (2, n) for diagonals of squares whose chord sag behind the mirror exceeds the offset of layers.
+
+    `places` (3, n, 5) are the four corners and the centre of each square.
+    """
     view, middle = cameras.view, places[:, :, 4]
     ahead = view.directions(middle.T).T
     room = slide * HALF * GAP * (np.ptp(cameras.places, axis=1).max() if view.orthographic else dot(ahead, ahead))
@@ -205,8 +234,10 @@ def _sunk(places: np.ndarray, cameras: Cameras, slide: float) -> np.ndarray:
 
 def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, places: np.ndarray,
             rays: np.ndarray) -> np.ndarray:
-    """The points (3, n, k) at which rays (3, n, k) meet triangles; what lies beside one is drawn onto it, as corners of
-    faces are."""
+    """Return the points (3, n, k) at which rays hit triangles; points outside of a triangle are moved onto it.
+
+    `places` and `rays` (3, n, k) are starts and directions; `column` (n k,) is the frame of each.
+    """
     origins, ways = places.reshape(3, -1), rays.reshape(3, -1)
     met_at = origins + np.maximum(frames.distance(column, origins, ways), 0.0) * ways
     weights = np.maximum(np.nan_to_num(frames.weights(column, met_at)), 0.0)
@@ -215,8 +246,18 @@ def _points(met: SceneAndMirrors, frames: SceneFrames, column: np.ndarray, place
 
 
 def _faces(five: np.ndarray, straying: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (m, 3) of the faces of squares with so many corners and a middle, `five` (n, 5), and the square of
-    each."""
+    """Build two or four faces for each square.
+
+    Parameters
+    ----------
+    five : (n, 5) int64, the four corners and the centre of each square; corners may be rotated in place
+    straying : (2, n) float64, deviation for each diagonal, in pixels
+
+    Returns
+    -------
+    corners : (m, 3) int64
+    square : (m,) int64, the square of each face
+    """
     turned = straying[1] < straying[0]
     five[turned, :4] = five[turned][:, [1, 2, 3, 0]]
     exact = straying.min(axis=0, initial=np.inf) <= STRAYING

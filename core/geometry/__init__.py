@@ -1,7 +1,7 @@
 """Triangle meshes and vectors: plain geometry on arrays, component-first (3, n) inside the method.
 
-In come meshes as they were given; out come meshes in an order that only their places decide, and which triangles lie
-beyond each other's sides.
+Input are meshes. Output are meshes in canonical order, which depends only on the places of vertices, and the adjacency
+of triangles.
 """
 from .adjacency import borders, connected, corners_beyond
 from .canonical_order import TURNS, Order, ordered

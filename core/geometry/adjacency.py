@@ -1,4 +1,4 @@
-"""Which triangles lie beyond each other's sides, and which hang together."""
+"""Adjacency of triangles: neighbours across sides, border vertices, and connected components."""
 from __future__ import annotations
 
 import numpy as np
@@ -7,14 +7,16 @@ from ..support import breathe, portions
 from .distinct import distinct, in_order
 from .subdivision import edge_numbers, following, others
 
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
-SCATTERED = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio: multiples of it lie all over
+AT_ONCE = 16384  # triangles per chunk, whose arrays fit the CPU cache
+SCATTERED = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, for multiplicative hashing
 
 
 def corners_beyond(triangles: np.ndarray) -> np.ndarray:
-    """For each corner of triangles (m, 3) the one beyond the opposite side, an entry of the flattened triangles, or -1
-    where there is none, or more than one."""
-    # each side by the corner opposite to it, from the next one to that before
+    """Return for each corner of triangles (m, 3) the opposite corner of the neighbour across its opposite side.
+
+    The result (m, 3) holds indices into the flattened triangles, -1 where there is no neighbour, or more than one.
+    """
+    # name each side by the corner opposite to it; it goes from the next corner to the previous one
     one, other = following(triangles).ravel(), np.roll(triangles, 1, axis=1).ravel()
     key = edge_numbers(one, other, int(triangles.max(initial=0)) + 1)
     order = in_order(key)
@@ -31,13 +33,12 @@ def corners_beyond(triangles: np.ndarray) -> np.ndarray:
 
 
 def borders(triangles: np.ndarray, count: int) -> np.ndarray:
-    """Which of `count` vertices, that triangles (m, 3) name, are such at which the surface ends, or turns its other
-    side."""
-    # 31 bits of each, multiplied twice, since sums of mere multiples are equal wherever those of the indices are; as
-    # floats, which `add.at` adds up ten times as fast as what it has to convert
+    """Return True (count,) for vertices at which the surface of triangles (m, 3) ends, or changes its orientation."""
+    # hash each index to 31 bits; two multiplications, because sums of simple multiples are equal if the sums of the
+    # indices are; as floats, which `add.at` adds ten times as fast as types that it has to convert
     mixed = np.arange(count, dtype=np.uint64) * SCATTERED
     number = (((mixed ^ (mixed >> np.uint64(32))) * SCATTERED) >> np.uint64(33)).astype(np.float64)
-    # round an inner vertex each neighbour comes once after it and once before it
+    # around an inner vertex, each neighbour comes once after it and once before it: the sum is zero
     total = np.zeros(count)
     for part in portions(len(triangles), AT_ONCE):
         corner = triangles[part].T
@@ -49,11 +50,13 @@ def borders(triangles: np.ndarray, count: int) -> np.ndarray:
 
 
 def connected(triangles: np.ndarray) -> np.ndarray:
-    """(m,) int64: triangles (m, k), or whatever else has numbers, that hang together by shared ones have the same
-    number, from 0 on in the order of their lowest ones.
+    """Return the connected component (m,) int64 of each triangle.
 
-    Each root is hung below the lowest one beside it, and what hangs together so far is one number in the next round
-    (Y. Shiloach, U. Vishkin, "An O(log n) parallel connectivity algorithm", 1982).
+    `triangles` (m, k) may be any rows of indices; rows that share an index are connected. Components are numbered from
+    0 on, in the order of their lowest indices.
+
+    In each round, each root is attached to its lowest neighbour, and then connected roots are merged (Y. Shiloach,
+    U. Vishkin, "An O(log n) parallel connectivity algorithm", 1982).
     """
     part = np.arange(int(triangles.max(initial=-1)) + 1)
     first, *rest = triangles.T

@@ -1,8 +1,8 @@
-"""One order for every listing of the same mesh: what comes out does not depend on how vertices and triangles came in.
+"""Canonical order of a mesh, so that results do not depend on the input order of vertices and triangles.
 
-Floating-point sums, splits of equal halves and choices among equals depend on the order in which things are met. So the
-method works on meshes whose vertices and triangles lie in an order that only their places decide, and tells its
-results in the numbers of the mesh that was given.
+Floating-point sums, splits into equal halves and choices among equal values depend on the order of the data. So the
+method works on meshes whose vertices and triangles are sorted by their places only. Results refer to the indices of the
+input mesh.
 """
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ TURNS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 
 @dataclass(frozen=True)
 class Order:
-    """Where the parts of an ordered mesh come from.
+    """Mapping from an ordered mesh to the input mesh.
 
     Attributes
     ----------
-    vertex : (n,) int64, the given vertex that each ordered one is
-    triangle : (m,) int64, the given triangle that each ordered one is
-    first : (m,) int64, the corner of the given triangle that the ordered one begins with
+    vertex : (n,) int64, input index of each ordered vertex
+    triangle : (m,) int64, input index of each ordered triangle
+    first : (m,) int64, corner of the input triangle, 0 to 2, that is the first corner of the ordered one
     """
 
     vertex: np.ndarray
@@ -34,28 +34,27 @@ class Order:
 
     @classmethod
     def unchanged(cls, mesh: TriangleMesh) -> Order:
-        """That of a mesh which is taken as it is."""
+        """Return the identity mapping for a mesh that stays in its input order."""
         count = len(mesh.triangles)
         return cls(np.arange(len(mesh.positions)), np.arange(count), np.zeros(count, dtype=np.int64))
 
 
 def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
-    """The mesh with its vertices sorted by x, y, z, each triangle begun at its lowest corner, and the triangles sorted
-    by their corners.
+    """Sort a mesh: vertices by x, y, z, each triangle's corners from its lowest one on, and triangles by corners.
 
     Parameters
     ----------
     mesh : TriangleMesh
     shading : bool
-        Whether the normals matter, as a mirror's do. They tell doubled triangles apart then; the ordered mesh has none
-        otherwise.
+        True to keep shading normals, as for a mirror. Duplicate triangles are then sorted by their normals. If False,
+        the ordered mesh has no normals.
 
     Returns
     -------
     mesh : TriangleMesh
     order : Order
     """
-    positions = mesh.positions + 0.0  # there is but one zero
+    positions = mesh.positions + 0.0  # turn -0.0 into 0.0
     count = len(positions)
     by_place, new = _sorted_rows(list(positions.T))
     breathe()
@@ -64,7 +63,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     breathe()
 
     corner = rank[mesh.triangles]
-    # of two corners in one place, that which the other follows
+    # if two corners share the lowest place, start at the one before the other
     first = np.argmin(corner * count + following(corner), axis=1)
     corner = np.take_along_axis(corner, TURNS[first], axis=1)
     breathe()
@@ -79,7 +78,7 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
     named = np.take_along_axis(mesh.triangles[triangle], TURNS[first], axis=1)
     breathe()
 
-    # vertices in one place come in the order in which the triangles name them
+    # sort vertices at the same place by their first use in the triangles
     vertex, number = by_place, np.full(count, named.size)
     if not new[1:].all():
         np.minimum.at(number, named.ravel(), np.arange(named.size))
@@ -91,8 +90,15 @@ def ordered(mesh: TriangleMesh, *, shading: bool) -> tuple[TriangleMesh, Order]:
 
 
 def _sorted_rows(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Order by the first key, of equals by the second and so on, and which rows in that order differ from the one
-    before; a later key is looked at only where all before are equal."""
+    """Sort rows by the first key (n,), equal ones by the second, and so on.
+
+    Later keys are read only where all earlier ones are equal.
+
+    Returns
+    -------
+    order : (n,) int64, indices of the sorted rows
+    new : (n,) bool, True for sorted rows that differ from the previous one; False for the first
+    """
     order = np.argsort(keys[0], kind="stable")
     breathe()
     values = keys[0][order]

@@ -1,4 +1,4 @@
-"""Arrays that hold the same things column by column: chosen, and put one behind another, all alike."""
+"""Base class for a structure of arrays, whose columns are selected and concatenated together."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
@@ -13,8 +13,10 @@ Kind = TypeVar("Kind", bound="ColumnArrays")
 
 
 class ColumnArrays:
-    """What dataclasses share whose fields are arrays, of all of which one axis counts the same things: the last, or
-    that which the class says. A field may be such a class itself; what is of another kind is told of all together."""
+    """Base class of dataclasses whose fields are arrays with one common axis, `counting_axis`: the last by default.
+
+    A field may be a `ColumnArrays` itself. Fields of other types hold for all columns together.
+    """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     counting_axis: ClassVar[int] = -1
@@ -27,7 +29,7 @@ class ColumnArrays:
         return first.shape[self.counting_axis] if isinstance(first, np.ndarray) else len(first)
 
     def select(self: Kind, chosen: np.ndarray | slice) -> Kind:
-        """Those `chosen`, as indices, as a mask or as a slice."""
+        """Return the columns `chosen`: indices, a boolean mask or a slice."""
         if isinstance(chosen, np.ndarray) and chosen.dtype == bool:
             chosen = np.flatnonzero(chosen)
         return type(self)(*(self._chosen(value, chosen) for value in self._values()))
@@ -38,11 +40,11 @@ class ColumnArrays:
         breathe()
         if isinstance(chosen, slice):
             return value[chosen if self.counting_axis == 0 else (..., chosen)]
-        return value.take(chosen, axis=self.counting_axis, mode="wrap")  # as `columns` does
+        return value.take(chosen, axis=self.counting_axis, mode="wrap")  # faster, see `columns`
 
     @classmethod
     def joined(cls: type[Kind], parts: Sequence[Kind]) -> Kind:
-        """All of the parts, at least one, one part behind another."""
+        """Concatenate the columns of `parts`, at least one; other fields are taken from the first part."""
         return cls(*map(cls._together, zip(*(part._values() for part in parts))))
 
     @classmethod

@@ -1,7 +1,7 @@
-"""Distinct integers, and the order in which they rise, by sorts of whole numbers alone.
+"""Unique values and sort orders of integers, faster than `np.unique` and `np.argsort`.
 
-NumPy sorts numbers several times as fast as it tells in which order they come (processors have instructions for the
-one). So each key takes its index along, in the lower bits of one number.
+NumPy sorts numbers several times as fast as it computes the order of sorting, because processors have instructions for
+the first. So each key is packed with its index, in the lower bits, into one number.
 """
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 from ..support import breathe
 from .marked import mask
 
-DENSE = 8  # times the keys: numbers up to so many are marked in a table
+DENSE = 8  # largest key in multiples of the number of keys, up to which a table is used instead of sorting
 
 
 def distinct(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The distinct integers >= 0 among keys (n,), rising; and which of them each key is."""
+    """Return the distinct integers >= 0 (k,) among keys (n,), rising, and for each key its index (n,) in these."""
     most = int(key.max(initial=-1))
     if most > DENSE * len(key):
         values, _, group = first_of(key)
@@ -27,7 +27,11 @@ def distinct(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def first_of(key: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The distinct integers >= 0 among keys (n,), rising; where each occurs first; and which of them each key is."""
+    """Find the distinct integers >= 0 among keys (n,).
+
+    Return the integers (k,), rising, the index (k,) of the first key equal to each, and for each key its index (n,) in
+    the integers.
+    """
     order, rising = _sorted(key)
     new = np.ones(len(key), dtype=bool)
     np.not_equal(rising[1:], rising[:-1], out=new[1:])
@@ -41,12 +45,12 @@ def first_of(key: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def in_order(key: np.ndarray) -> np.ndarray:
-    """The order (n,) in which integers >= 0 rise, equal ones as they come."""
+    """Return the indices (n,) that sort integers >= 0; the sort is stable."""
     return _sorted(key)[0]
 
 
 def _sorted(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The order in which integers >= 0 rise, and they themselves."""
+    """Return the indices (n,) that sort integers >= 0, and the sorted integers (n,)."""
     bits = max(len(key) - 1, 0).bit_length()
     if int(key.max(initial=0)).bit_length() + bits > 63:
         order = np.argsort(key, kind="stable")

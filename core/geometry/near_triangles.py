@@ -1,4 +1,4 @@
-"""Whether triangles come near each other."""
+"""Test for triangles that come near each other."""
 from __future__ import annotations
 
 import numpy as np
@@ -8,8 +8,16 @@ from .vectors import cross, dot, unit
 
 
 def meeting(one: np.ndarray, other: np.ndarray, room: np.ndarray) -> np.ndarray:
-    """Which pairs (n,) of triangles with corners (3, 3, n), as [component, corner, pair], come as near as `room`: where
-    both lie so near the other's plane, they do so side by side along the line in which the planes meet."""
+    """Return True (n,) for pairs of triangles that come as near as `room`.
+
+    Each triangle must have a part that near to the other's plane. Along the line in which the planes meet, these parts
+    must overlap.
+
+    Parameters
+    ----------
+    one, other : (3, 3, n) float64, corners, as [component, corner, pair]
+    room : (n,) float64, distance in scene units
+    """
     near, heights, normals = np.ones(len(room), dtype=bool), [], []
     for plane, corners in ((one, other), (other, one)):
         normals.append(unit(cross(plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0])))
@@ -25,8 +33,15 @@ def meeting(one: np.ndarray, other: np.ndarray, room: np.ndarray) -> np.ndarray:
 
 def _reach(corners: np.ndarray, height: np.ndarray, room: np.ndarray,
            along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """From where to where along unit vectors (3, n) the parts of triangles with `corners` (3, 3, n) go that lie within
-    `room` of a plane, their corners at `height` (3, n)."""
+    """Return the interval along a direction of the parts of triangles that lie near a plane, as low and high (n,).
+
+    Parameters
+    ----------
+    corners : (3, 3, n) float64, as [component, corner, triangle]
+    height : (3, n) float64, heights of the corners above the plane
+    room : (n,) float64, largest distance from the plane
+    along : (3, n) float64, unit vectors
+    """
     at = dot(corners, along[:, None])
     inside = np.abs(height) <= room
     low, high = (pick(np.where(inside, at, none), axis=0) for pick, none in ((np.min, np.inf), (np.max, -np.inf)))

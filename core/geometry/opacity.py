@@ -10,11 +10,11 @@ class Opacity(IntEnum):
     Attributes
     ----------
     CLEAR
-        All rays go on behind it, and nothing is lost if it is covered, as with clear glass.
+        All rays pass through it, and layers may cover it without a visible loss, for example clear glass.
     UNSEEN
-        The eye looks through it and mirrors show it, as a wall that is hidden from the camera.
+        View rays pass through it and mirrors show it, for example a wall that is hidden from the camera.
     OPEN
-        All rays go on behind it, but it is seen itself, as films, leaves and tinted panes are.
+        All rays pass through it, but it is visible itself, for example films, leaves and tinted panes.
     OPAQUE
         All rays end at it.
 

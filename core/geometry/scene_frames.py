@@ -8,17 +8,17 @@ import numpy as np
 
 from .vectors import columns, cross, dot, norm, rows
 
-PARALLEL = 2.0 ** -53  # sine: rays that fall less steeply fall by rounding alone
+PARALLEL = 2.0 ** -53  # sine between a ray and a plane: smaller ones are rounding
 
 
 def falling(normal: np.ndarray, rays: np.ndarray) -> np.ndarray:
-    """How fast rays (3, n) move along normals, never so slowly that it is rounding alone."""
+    """Return the component (n,) of rays (3, n) along normals (3, n), replaced by a small positive value if rounding."""
     speed, least = dot(normal, rays), np.maximum(PARALLEL * norm(normal) * norm(rays), 1e-150)
     return np.where(np.abs(speed) > least, speed, least)
 
 
 class Triangles(Protocol):
-    """A mesh, or whatever else has triangles (m, 3) over positions (n, 3)."""
+    """Any object with triangles (m, 3) over positions (n, 3)."""
 
     @property
     def positions(self) -> np.ndarray: ...
@@ -29,16 +29,16 @@ class Triangles(Protocol):
 
 @dataclass(frozen=True)
 class SceneFrames:
-    """Frames of chosen triangles.
+    """Affine frames of selected triangles.
 
     Attributes
     ----------
-    triangle : (t,) int64, sorted: the triangles of the scene that the columns below belong to
+    triangle : (t,) int64, sorted indices of the scene's triangles, one for each column of the arrays below
     vertices : (3, t) int64, their vertices
-    positions : (n, 3) float64, of all vertices
-    origin : (3, t) float64, the third vertex
+    positions : (n, 3) float64, positions of all vertices of the scene
+    origin : (3, t) float64, position of the third vertex
     first, second : (3, t) float64, gradients of the barycentric coordinates of the first and second vertex
-    normal : (3, t) float64, along the plane's normal, scaled to the gradients' size
+    normal : (3, t) float64, normal of the plane, scaled to the size of the gradients
     """
 
     triangle: np.ndarray
@@ -51,7 +51,7 @@ class SceneFrames:
 
     @classmethod
     def of(cls, mesh: Triangles, triangle: np.ndarray) -> SceneFrames:
-        """Frames of the triangles of a mesh, or of whatever has `positions` and `triangles`."""
+        """Compute the frames of triangles `triangle` (t,), sorted, of a mesh with `positions` and `triangles`."""
         vertices = np.ascontiguousarray(mesh.triangles[triangle].T)
         a, b, c = (rows(mesh.positions[vertices[k]]) for k in range(3))
         u, v = a - c, b - c
@@ -62,34 +62,39 @@ class SceneFrames:
                    normal / (size * np.sqrt(size)))
 
     def coordinates(self, column: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Barycentric coordinates of the first and second vertex, and height, of points (3, ...) in frames `column`."""
+        """Return barycentric coordinates of the first and second vertex, and heights, of points (3, ...), as (...).
+
+        `column` holds the frame of each point. Heights are in units of the scaled normals.
+        """
         offset = points - self._take(self.origin, column, points)
         return self.directions(column, offset)
 
     def directions(self, column: np.ndarray, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The same of vectors, which have no origin."""
+        """Return the changes of `coordinates` along `vectors` (3, ...), which have no origin."""
         first, second, height = (dot(self._take(row, column, vectors), vectors)
                                  for row in (self.first, self.second, self.normal))
         return first, second, height
 
     def weights(self, column: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Barycentric coordinates (3, ...) of points (3, ...)."""
+        """Return barycentric coordinates (3, ...) of points (3, ...) in frames `column`."""
         first, second, _ = self.coordinates(column, points)
         return np.stack((first, second, 1.0 - first - second))
 
     def weights_within(self, column: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """The same, none negative: points beside their triangles as on their rims."""
+        """Return barycentric coordinates (3, ...), with negative ones set to zero and the rest normalised to sum 1."""
         weights = np.maximum(self.weights(column, points), 0.0)
         weights /= weights.sum(axis=0)
         return weights
 
     def distance(self, column: np.ndarray, places: np.ndarray, rays: np.ndarray) -> np.ndarray:
-        """s at which the rays Q + s R, (3, n) each, meet the planes of the frames: far away, but not infinitely far,
-        where they are parallel."""
+        """Return s (n,) at which rays Q + s R, given as `places` and `rays` (3, n), hit the planes of the frames.
+
+        For parallel rays the value is large but finite.
+        """
         return -self.height(column, places) / falling(self._take(self.normal, column, places), rays)
 
     def height(self, column: np.ndarray, places: np.ndarray) -> np.ndarray:
-        """How high (n,) places (3, n) lie over the planes of the frames."""
+        """Return the heights (n,) of `places` (3, n) above the planes of the frames, in units of the scaled normals."""
         return dot(self._take(self.normal, column, places), places - self._take(self.origin, column, places))
 
     @staticmethod

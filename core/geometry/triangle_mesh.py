@@ -1,4 +1,4 @@
-"""Triangles with shading normals: what both the mirror and the diffuse scene are made of."""
+"""Triangle meshes with shading normals, for mirrors and for diffuse scenes."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -35,14 +35,14 @@ class TriangleMesh:
     triangles : (m, 3) int64
         Indices into `positions`.
     corner_normals : (m, 3, 3) float64, optional
-        Unit shading normal of each corner; equal normals at a shared vertex make the surface smooth there. The flat
-        normals of the triangles where omitted or zero. Only a mirror's are used.
+        Unit shading normal of each corner; equal normals at a shared vertex make the surface smooth there. If omitted
+        or zero, the flat normals of the triangles are used. Only a mirror's normals matter.
 
     Raises
     ------
     ValueError
-        Where shapes or kinds of numbers do not fit, an index is out of range, or a coordinate of a used vertex or a
-        normal is not finite or is too large.
+        If shapes or number types do not fit, an index is out of range, or a coordinate of a used vertex or a normal is
+        not finite or is too large.
 
     Examples
     --------
@@ -69,14 +69,14 @@ class TriangleMesh:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "triangles", triangles)
         if corner_normals is None:
-            return  # flat, and worked out when they are asked for
+            return  # flat normals are computed on first use
         normals = numbers(corner_normals, (len(triangles), 3, 3), "The corner_normals must be an (m, 3, 3) "
                           "array of numbers; give three normals for each triangle, or none at all.")
         object.__setattr__(self, "corner_normals", _unit_normals(normals, positions, triangles))
 
     @staticmethod
     def joined(meshes: Iterable[TriangleMesh]) -> TriangleMesh:
-        """One mesh of several, their triangles one behind another; an empty one of none."""
+        """Concatenate meshes into one; return an empty mesh if there are none."""
         meshes = list(meshes) if isinstance(meshes, Iterable) else [meshes]
         if not all(isinstance(mesh, TriangleMesh) for mesh in meshes):
             raise ValueError("The meshes to join must be a list of TriangleMesh; make one of each part first.")
@@ -89,8 +89,10 @@ class TriangleMesh:
                             np.concatenate([np.zeros((0, 3, 3)), *(mesh.corner_normals for mesh in meshes)]))
 
     def like(self, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None) -> TriangleMesh:
-        """A mesh of this one's parts in another order, which need not be checked again; without normals, (0, 3, 3),
-        where None are given: nobody asks for them then."""
+        """Return a mesh of this one's parts in another order, without new checks.
+
+        If `corner_normals` is None, the mesh has no normals, (0, 3, 3); callers must not use them.
+        """
         mesh = object.__new__(TriangleMesh)
         normals = np.zeros((0, 3, 3)) if corner_normals is None else corner_normals
         for name, value in (("positions", positions), ("triangles", triangles), ("corner_normals", normals)):
@@ -98,10 +100,10 @@ class TriangleMesh:
         return mesh
 
     def face_normals(self) -> np.ndarray:
-        """Unit normals (m, 3) of the flat triangles, zero where a triangle has no area.
+        """Return the unit normals (m, 3) of the flat triangles, zero for a triangle without an area.
 
-        To the last bit they do not depend on the corner that a triangle begins with, and turning it round turns their
-        sign alone.
+        They are the same to the last bit for any first corner of a triangle. Reversing a triangle changes only the
+        sign.
         """
         return self._face_normals
 
@@ -111,12 +113,12 @@ class TriangleMesh:
 
     @cached_property
     def corner_normals(self) -> np.ndarray:
-        """(m, 3, 3) float64, those of the flat triangles where none are given."""
+        """Unit shading normals (m, 3, 3) of the corners; the flat triangles' normals if none are given."""
         return np.broadcast_to(self.face_normals()[:, None, :], (len(self.triangles), 3, 3))
 
     @cached_property
     def areal(self) -> np.ndarray:
-        """Which triangles (m,) have an area that is more than rounding."""
+        """True (m,) for triangles with an area above rounding."""
         found = np.empty(len(self.triangles), dtype=bool)
         for part in portions(len(found), _CHUNK):
             found[part] = areal(rows(self.positions.take(self.triangles[part].T, axis=0, mode="clip")))
@@ -124,19 +126,19 @@ class TriangleMesh:
 
     @cached_property
     def places(self) -> np.ndarray:
-        """The first vertex (n,) in the place of each, in a mesh in its canonical order: those follow each other."""
+        """Index (n,) of the first vertex at the same place as each vertex; only for meshes in canonical order."""
         new = np.ones(len(self.positions), dtype=bool)
         new[1:] = (self.positions[1:] != self.positions[:-1]).any(axis=1)
         return np.flatnonzero(new)[np.cumsum(new) - 1]
 
     @cached_property
     def used(self) -> np.ndarray:
-        """The vertices, rising, that triangles name."""
+        """Indices of the vertices that triangles use, rising."""
         return np.flatnonzero(mask(len(self.positions), self.triangles))
 
     @cached_property
     def place_of(self) -> np.ndarray:
-        """The number (n,) of each vertex's place: flat faces may have vertices of their own in one place."""
+        """Number (n,) of each vertex's place, equal for vertices at one place: flat faces may not share vertices."""
         order = np.lexsort(self.positions.T[::-1])
         number = np.empty(len(order), dtype=np.int64)
         number[order] = np.cumsum((np.diff(self.positions[order], axis=0, prepend=np.nan) != 0.0).any(axis=1)) - 1
@@ -144,30 +146,35 @@ class TriangleMesh:
 
     @cached_property
     def beyond(self) -> np.ndarray:
-        """(m, 3): for each corner the one beyond the opposite side, told by place, an entry of the flattened triangles;
-        -1 where there is none, or more than one."""
+        """For each corner (m, 3) the opposite corner of the neighbour across its opposite side, see `corners_beyond`.
+
+        Vertices at one place count as one. Entries are indices into the flattened triangles, -1 for no neighbour, or
+        more than one.
+        """
         return corners_beyond(self.place_of[self.triangles])
 
     @property
     def neighbours(self) -> np.ndarray:
-        """Triangle (m, 3) across the side opposite to each corner; -1 where there is none, or more than one."""
+        """Index (m, 3) of the triangle across the side opposite to each corner; -1 for none, or more than one."""
         return self.beyond // 3
 
     @property
     def opposite_corners(self) -> np.ndarray:
-        """(m, 3, 3): the vertex beyond the side opposite to each corner; not a number where there is no triangle, or
-        more than one."""
+        """Positions (m, 3, 3) of the opposite corner of the neighbour across each corner's opposite side.
+
+        NaN where there is no neighbour, or more than one.
+        """
         return np.where(self.beyond[:, :, None] >= 0, self.positions[self.triangles.ravel()[self.beyond]], np.nan)
 
 
 def area_normals(corners: np.ndarray) -> np.ndarray:
-    """Normals (3, m) of triangles with the corners (3, 3, m), component and corner first, twice as long as their area.
+    """Return normals (3, m) of triangles, with a length of twice their area.
 
-    Of two edges that meet, rounded as they are, the product depends on the corner they meet at. It is the lowest one by
-    x, y, z here, whichever the triangle begins with.
+    `corners` (3, 3, m) are [component, corner, triangle]. Because of rounding, the cross product of two edges depends
+    on the corner at which they meet. This is always the lowest corner by x, y, z, whichever corner is first.
     """
     edge = np.stack([corners[:, next_corner(k)] - corners[:, k] for k in range(3)])
-    # the sign of the first difference tells which of two corners is the lower one
+    # the sign of the first non-zero difference says which of two corners is lower
     way = [np.where(x != 0.0, x, np.where(y != 0.0, y, z)) for x, y, z in edge]
     first = (way[0] >= 0.0) & (way[2] <= 0.0)
     second = way[1] >= 0.0
@@ -177,20 +184,21 @@ def area_normals(corners: np.ndarray) -> np.ndarray:
 
 
 def areal(corners: np.ndarray) -> np.ndarray:
-    """Which triangles with corners (3, 3, m), component and corner first, have an area that is more than rounding."""
+    """Return True (m,) for triangles with `corners` (3, 3, m), [component, corner, triangle], with area above rounding.
+    """
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return has_area(norm(cross(u, v)), largest(np.maximum(np.abs(u), np.abs(v))))
 
 
 def has_area(area: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Which triangles have an area that is more than rounding, by their areas and their sizes."""
+    """Return True for triangles whose `area` is above rounding, relative to their `size` (largest edge component)."""
     return area > _NO_AREA * size**2
 
 
 def _flat_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     normals = np.empty((len(triangles), 3))
     for part in portions(len(triangles), _CHUNK):
-        # indices known to be good are gathered faster where NumPy need not say which one is wrong
+        # the indices are valid: `take` without bounds errors is faster
         normal = area_normals(rows(positions.take(triangles[part].T, axis=0, mode="clip")))
         length = norm(normal)
         normals[part] = (normal / np.where(length > 0.0, length, 1.0)).T
@@ -201,7 +209,7 @@ def _check_places(positions: np.ndarray, triangles: np.ndarray) -> None:
     with np.errstate(invalid="ignore"):
         if -LARGEST <= positions.min(initial=0.0) and positions.max(initial=0.0) <= LARGEST:
             return
-    # a vertex that nothing uses may be anything; of vertices without triangles those that are no place are left out
+    # unused vertices are not checked; a mesh without triangles is checked except for non-finite vertices
     used = positions[triangles] if len(triangles) else positions[np.isfinite(positions).all(axis=1)]
     if not np.isfinite(used).all():
         raise ValueError("A vertex has a coordinate that is not a finite number; remove or repair it.")
@@ -210,14 +218,14 @@ def _check_places(positions: np.ndarray, triangles: np.ndarray) -> None:
 
 
 def _unit_normals(normals: np.ndarray, positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Normals (m, 3, 3) of unit length; the flat triangle's for those without a length."""
+    """Normalise `normals` (m, 3, 3); normals of length zero are replaced by the flat triangle's."""
     if not np.isfinite(normals).all():
         raise ValueError("A shading normal is not a finite number; recalculate the normals.")
     with np.errstate(over="ignore"):
         length = np.linalg.norm(normals, axis=2, keepdims=True)
     strange = (length > _STRANGE) | (length < 1.0 / _STRANGE)
     if strange.any():
-        # a power of two changes no digit
+        # scaling by a power of two is exact
         power = np.frexp(np.abs(normals).max(axis=2, keepdims=True))[1]
         normals = np.where(strange, np.ldexp(normals, -power), normals)
         length = np.where(strange, np.linalg.norm(normals, axis=2, keepdims=True), length)

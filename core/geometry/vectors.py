@@ -1,8 +1,8 @@
 """Dot and cross products on component-first arrays: three rows x, y, z of any length.
 
-Rows that lie contiguous in memory make these several times faster than `np.cross` and `np.einsum` on (n, 3) arrays,
-and the many small three-dimensional products of the method are where its time goes. What gathers takes breath: nearly
-all of the work does it again and again, and so hands over wherever it is.
+Rows that are contiguous in memory make these several times faster than `np.cross` and `np.einsum` on (n, 3) arrays, and
+the method spends most of its time in such products. Functions that gather entries also yield (`breathe`): nearly all
+steps call them often, so that the program stays responsive.
 """
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .distinct import distinct, first_of
 
 
 def rows(points: np.ndarray) -> np.ndarray:
-    """Component-first copy (3, ...) of points (..., 3)."""
+    """Return a component-first copy (3, ...) of points (..., 3)."""
     breathe()
     return np.ascontiguousarray(np.moveaxis(points, -1, 0))
 
@@ -37,18 +37,18 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def columns(a: np.ndarray, index: np.ndarray) -> np.ndarray:
-    """a[..., index] for valid indices: NumPy gathers twice as fast where it need not say which one is wrong."""
+    """Return a[..., index] for valid indices; twice as fast as NumPy's indexing, because bounds are not checked."""
     breathe()
     return a.take(index, axis=-1, mode="wrap")
 
 
 def largest(a: np.ndarray) -> np.ndarray:
-    """The largest of three rows (3, n): along so short an axis NumPy's own maximum takes several times as long."""
+    """Return the maximum (n,) of three rows (3, n); much faster than NumPy's maximum along so short an axis."""
     return np.maximum(np.maximum(a[0], a[1]), a[2])
 
 
 def smallest(a: np.ndarray) -> np.ndarray:
-    """The smallest of three rows (3, n)."""
+    """Return the minimum (n,) of three rows (3, n)."""
     return np.minimum(np.minimum(a[0], a[1]), a[2])
 
 
@@ -57,20 +57,20 @@ def norm(a: np.ndarray) -> np.ndarray:
 
 
 def unit(a: np.ndarray) -> np.ndarray:
-    """a / |a|, and zero where a is zero."""
+    """Return a / |a|, and zero where a is zero."""
     length = norm(a)
     return a / np.where(length > 0.0, length, 1.0)
 
 
 def across(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Two unit vectors (3, n) across unit vectors `axis` (3, n) and across one another."""
+    """Return two unit vectors (3, n) perpendicular to the unit vectors `axis` (3, n) and to each other."""
     other = np.where(np.abs(axis[:1]) < 0.6, np.array([[1.0], [0.0], [0.0]]), np.array([[0.0], [1.0], [0.0]]))
     first = unit(cross(axis, other))
     return first, cross(axis, first)
 
 
 def solve(c0: np.ndarray, c1: np.ndarray, c2: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """x (3, n) with x0 c0 + x1 c1 + x2 c2 = right, by Cramer's rule; zero where the three columns are dependent."""
+    """Solve x0 c0 + x1 c1 + x2 c2 = right for x (3, n), by Cramer's rule; zero where the columns are dependent."""
     normal = cross(c1, c2)
     determinant = dot(c0, normal)
     inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=np.abs(determinant) > 1e-300)
@@ -79,8 +79,10 @@ def solve(c0: np.ndarray, c1: np.ndarray, c2: np.ndarray, right: np.ndarray) -> 
 
 
 def spread_directions(count: int) -> np.ndarray:
-    """Unit vectors (count, 3) all round, about evenly: points on a spiral over the sphere, each turned on by the golden
-    angle (R. Swinbank, R. J. Purser, "Fibonacci grids", 2006)."""
+    """Return unit vectors (count, 3), distributed about evenly over the sphere.
+
+    They are a Fibonacci spiral with steps of the golden angle (R. Swinbank, R. J. Purser, "Fibonacci grids", 2006).
+    """
     turn = np.arange(count) + 0.5
     height, angle = 1.0 - 2.0 * turn / count, np.pi * (1.0 + np.sqrt(5.0)) * turn
     ring = np.sqrt(1.0 - height * height)
@@ -88,21 +90,26 @@ def spread_directions(count: int) -> np.ndarray:
 
 
 def ranges(starts: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Every index of the runs [start, start + length), one after another, and the run each belongs to."""
+    """Concatenate the indices of the runs [start, start + length); return them and the run that each belongs to."""
     run = np.repeat(np.arange(len(lengths)), lengths)
     before = np.cumsum(lengths) - lengths
     return np.arange(len(run)) - np.repeat(before - starts, lengths), run
 
 
 def between(rising: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where in `rising` numbers those from `low` to `high` (n,) begin, and how many there are."""
+    """Find in sorted numbers `rising` those from `low` to `high` (n,), both included.
+
+    Return the index (n,) of the first one, and their count (n,).
+    """
     start = np.searchsorted(rising, low)
     return start, np.searchsorted(rising, high, side="right") - start
 
 
 def shares(lengths: np.ndarray, most: int) -> Generator[slice, None, None]:
-    """Parts of runs of `lengths` (n,) that have about `most` entries each, and no run in two of them, with a breath
-    before each."""
+    """Yield slices of runs of `lengths` (n,) with about `most` entries each; no run is divided.
+
+    Calls `breathe` before each slice.
+    """
     before = np.append(0, np.cumsum(lengths))
     cuts = np.unique(np.concatenate(([0], np.searchsorted(before, np.arange(0, before[-1], most)), [len(lengths)])))
     for start, stop in zip(cuts[:-1], cuts[1:]):
@@ -111,7 +118,10 @@ def shares(lengths: np.ndarray, most: int) -> Generator[slice, None, None]:
 
 
 def groups(*keys: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of several keys (n,) of integers >= 0, each distinct one once: where it first occurs; each row's group."""
+    """Group rows of several keys (n,) of integers >= 0 by value.
+
+    Return the index of the first row of each group, and the group (n,) of each row.
+    """
     group = keys[0]
     for key in keys[1:]:
         _, group = distinct(group)

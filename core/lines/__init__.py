@@ -1,6 +1,7 @@
-"""Results of which lines are drawn: faces that lie side by side and show one surface going on share vertices.
+"""Preparation of results for line drawing: neighbouring faces that show one continuous surface share vertices.
 
-In comes a reflection mesh; out comes the same picture on vertices that are shared along every side but outlines.
+Input is a reflection mesh. Output is a mesh with the same picture, whose vertices are shared along every side except
+outlines.
 """
 from .closed_borders import with_borders_closed
 

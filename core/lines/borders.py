@@ -1,4 +1,4 @@
-"""Borders: sides that one face of a result alone has."""
+"""Borders: sides that belong to only one face of a result."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,7 +11,14 @@ from ..support import breathe
 
 @dataclass(frozen=True)
 class Borders(ColumnArrays):
-    """Sides (b) that one face alone has: which side of which `face` it is, and from which vertex to which it goes."""
+    """Sides (b) that belong to one face only.
+
+    Attributes
+    ----------
+    face : (b,) int64, the face
+    side : (b,) int64, number of the side in it: 0, 1, 2 for 01, 12, 20
+    start, end : (b,) int64, vertices at its ends
+    """
 
     face: np.ndarray
     side: np.ndarray
@@ -20,7 +27,7 @@ class Borders(ColumnArrays):
 
     @classmethod
     def of(cls, triangles: np.ndarray, pixels: np.ndarray) -> Borders:
-        """Those of `triangles` (m, 3) that have a place in the picture."""
+        """Find the borders of `triangles` (m, 3); sides with ends whose `pixels` (n, 2) are not finite are left out."""
         _, first, edge = shared_edges(triangles)
         first = first[np.bincount(edge.ravel(), minlength=len(first)) == 1]
         breathe()
@@ -30,7 +37,7 @@ class Borders(ColumnArrays):
         return cls(face, side, start, end).select(known)
 
     def ends(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices of the borders, each with every face that it ends a side of."""
+        """Return pairs (k,) of a border's end vertex and the border's face, without duplicates."""
         vertex, face = np.concatenate((self.start, self.end)), np.concatenate((self.face, self.face))
         first, _ = groups(vertex, face)
         return vertex[first], face[first]

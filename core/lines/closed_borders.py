@@ -1,8 +1,8 @@
-"""Borders between faces that lie side by side and show one surface going on, closed: such faces share vertices.
+"""Stitching of neighbouring faces that show one continuous surface, so that they share vertices.
 
-What is drawn whole, what cameras cut and what rays show is worked out part by part. Two parts may have a vertex each in
-one place of the picture, or one of them a vertex on a side of the other. No pixel tells that, but who draws lines takes
-such sides for the end of the surface.
+Unclipped triangles, faces clipped by cameras and cells sampled by rays are computed part by part. Two parts may each
+have a vertex at one place of the picture, or one part a vertex on a side of the other. This is invisible in the
+picture, but line drawing would treat such sides as the end of the surface.
 """
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from .joined_places import with_places_joined
 from .split_sides import with_sides_split
 from .surfaces import Surfaces
 
-ROUNDS = 3  # of splitting faces, each along one of its sides
+ROUNDS = 3  # rounds of splitting; each round splits a face along one of its sides
 
 
 def with_borders_closed(mesh: ReflectionMesh, view: View, scene: TriangleMesh, owner: np.ndarray) -> ReflectionMesh:
-    """A result with faces that share vertices wherever what they show goes on from one to the other.
+    """Return the result with shared vertices wherever a surface continues from one face to the next.
 
     Parameters
     ----------
     mesh : ReflectionMesh
-        With faces.
+        A result with faces.
     view : View
-        The eye that it was made for.
+        The view of the result.
     scene : TriangleMesh
-        What was reflected.
+        The reflected scene.
     owner : (s,) int
-        Which object each of its triangles is of: between two there is a line.
+        Object number of each triangle of the scene: between two objects there is a line.
 
     Returns
     -------
     ReflectionMesh
-        Vertices that others stand for are left out, and faces with a vertex of another on a side are split.
+        Duplicate vertices are merged. Faces with a vertex of another face on a side are split there.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def with_borders_closed(mesh: ReflectionMesh, view: View, scene: TriangleMesh, o
         closed, waiting = with_sides_split(closed, surfaces, waiting)
     if closed is mesh:
         return mesh
-    # of two faces on the same vertices, as slivers that closed a gap are then, one is enough
+    # drop duplicate faces on the same vertices, as from slivers that closed a gap
     once, _ = groups(*np.sort(closed.triangles, axis=1).T)
     once.sort()
     closed = replace(closed, triangles=closed.triangles[once], **closed.of_faces(once))

@@ -1,4 +1,4 @@
-"""One vertex for those of the borders of one surface that lie in one place."""
+"""Merging of border vertices of one surface that lie at the same place of the picture."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -11,13 +11,13 @@ from ..support import breathe
 from .borders import Borders
 from .surfaces import Surfaces
 
-SAME = 0.004  # pixels: vertices that are no farther apart are in one place
+SAME = 0.004  # pixels: vertices no farther apart count as being at the same place
 SHIFTS = SAME * np.array([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)])
-MOST = 32  # of the vertices in one place: where more lie, as at the tip of a fan, not each is compared with each
+MOST = 32  # largest number of comparisons per vertex: at the tip of a fan, more vertices may lie at one place
 
 
 def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMesh:
-    """The result with one vertex for those that lie in one place."""
+    """Return the result with border vertices merged if they lie at one place and show the same surface."""
     vertex, face = Borders.of(mesh.triangles, surfaces.pixels).ends()
     pairs = [_in_one_place(surfaces.pixels[vertex] + shift) for shift in SHIFTS]
     one, other = np.concatenate(pairs, axis=1)
@@ -36,7 +36,7 @@ def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMe
     triangles = stands[mesh.triangles]
     kept = np.flatnonzero((triangles != following(triangles)).all(axis=1))
     joined = replace(mesh, triangles=triangles[kept], **mesh.of_faces(kept))
-    # slivers may be turned over by that, and are turned back
+    # merging may flip slivers: flip them back
     pixels = surfaces.pixels
     turned = doubled_areas(pixels[joined.triangles]) * doubled_areas(pixels[mesh.triangles[kept]]) < 0.0
     for part in (joined.triangles, joined.source_weights):
@@ -45,12 +45,12 @@ def with_places_joined(mesh: ReflectionMesh, surfaces: Surfaces) -> ReflectionMe
 
 
 def _in_one_place(spots: np.ndarray) -> np.ndarray:
-    """Pairs (2, k) of spots (n, 2) in the same cell of a grid that is as fine as places are told apart."""
+    """Return pairs (2, k) of `spots` (n, 2), in pixels, in the same cell of a grid with cells of `SAME` pixels."""
     cell = np.floor(spots / SAME).astype(np.int64)
     _, place = groups(*(cell - cell.min(axis=0, initial=0)).T)
     order = in_order(place)
     count = np.bincount(place)
-    # each with those behind it in its place
+    # pair each spot with the later ones in its cell
     rank = np.arange(len(spots))
     behind = np.minimum(np.cumsum(count)[place[order]] - rank - 1, MOST)
     other, run = ranges(rank + 1, behind)

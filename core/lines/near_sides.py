@@ -1,4 +1,4 @@
-"""Spots of the picture that lie on lines, looked for in its pixels: no spot is compared with a line far away."""
+"""Search for picture positions that lie on line segments, with a grid, so that only neighbours are compared."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,20 +6,31 @@ import numpy as np
 from ..geometry import between, groups, in_order, ranges, shares
 from ..support import breathe
 
-BESIDE = 0.05  # pixels: a spot that is no farther from a line lies on it
-CELL = 0.25  # pixels: what is farther apart than two of these is not compared
-MOST = 64  # of the spots in three cells: where more lie, as at the tip of a fan, not all are compared
+BESIDE = 0.05  # pixels: a spot no farther from a line lies on it
+CELL = 0.25  # pixels: side of a cell; spots and lines more than two cells apart are not compared
+MOST = 64  # largest number of spots compared in three cells: at the tip of a fan, there may be more
 AT_ONCE = 1 << 18
-FARTHEST = 1 << 14  # pixels: longer lines reach far out of any picture
+FARTHEST = 1 << 14  # pixels: longer lines are ignored, because they reach far out of any picture
 
 
 def lengths(ways: np.ndarray) -> np.ndarray:
-    """Of ways (n, 2)."""
+    """Return the lengths (n,) of vectors (n, 2)."""
     return np.hypot(ways[:, 0], ways[:, 1])
 
 
 def beside(spots: np.ndarray, start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which of the spots (n, 2) lie on which of the lines from `start` to `end` (m, 2), and how far along them."""
+    """Find spots that lie on lines.
+
+    Parameters
+    ----------
+    spots : (n, 2) float64, in pixels
+    start, end : (m, 2) float64, ends of the lines, in pixels
+
+    Returns
+    -------
+    spot, line : (k,) int64, pairs of a spot and a line that it lies on
+    along : (k,) float64, distance of the spot from the line's start, in pixels
+    """
     if not (len(spots) and len(start)):
         return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0)
     low = spots.min(axis=0) - 2.0 * CELL
@@ -48,7 +59,10 @@ def beside(spots: np.ndarray, start: np.ndarray, end: np.ndarray) -> tuple[np.nd
 
 
 def _crossed(start: np.ndarray, end: np.ndarray, low: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lines, and cells (k, 2) counted from `low` that each goes through, but for those that it only touches."""
+    """Return pairs of a line (k,) and a cell (k, 2) that it crosses; cells are counted from `low`.
+
+    Samples one cell apart are used, so cells that a line crosses only at a corner may be missing.
+    """
     length = lengths(end - start)
     count = np.where(length < FARTHEST, np.ceil(length / CELL) + 1.0, 0.0).astype(np.int64)
     step, line = ranges(np.zeros(len(count), dtype=np.int64), count)
@@ -62,8 +76,14 @@ def _crossed(start: np.ndarray, end: np.ndarray, low: np.ndarray) -> tuple[np.nd
 
 def _near(spots: np.ndarray, lines: tuple, spot: np.ndarray,
           line: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which pairs (k,) of one of the spots (2, n) and one of the lines, of which start, unit way and length are told,
-    lie together, and how far along."""
+    """Select pairs of a spot and a line that lie together; return their spots, lines, and distances along the lines.
+
+    Parameters
+    ----------
+    spots : (2, n) float64
+    lines : tuple of (m,) float64, x and y of the start, x and y of the unit direction, length
+    spot, line : (k,) int64, pairs to test
+    """
     start_x, start_y, way_x, way_y, length = lines
     right, up = spots[0][spot] - start_x[line], spots[1][spot] - start_y[line]
     near = np.flatnonzero(np.abs(right * way_y[line] - up * way_x[line]) <= BESIDE)

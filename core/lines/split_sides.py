@@ -1,4 +1,4 @@
-"""Faces split where a vertex of another face, which shows the same surface, lies on one of their sides."""
+"""Splitting of faces at vertices of other faces of the same surface that lie on their sides (T-junctions)."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -12,19 +12,30 @@ from .joined_places import SAME
 from .near_sides import beside, lengths
 from .surfaces import Surfaces
 
-THIN = 5e-4  # pixels: parts of faces are wider, which single precision does not turn over
+THIN = 5e-4  # pixels: smallest height of the parts of a split face, so that single precision does not flip them
 
 
 def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
                      among: np.ndarray) -> tuple[ReflectionMesh, np.ndarray]:
-    """The result with those faces `among` (m,) bool split at the vertices that lie on one of their sides, but for those
-    of which parts would have no width; and which of its faces may have to be split on."""
+    """Split faces at vertices that lie on one of their sides.
+
+    Faces whose parts would be too thin stay unsplit.
+
+    Parameters
+    ----------
+    among : (m,) bool, faces that may be split
+
+    Returns
+    -------
+    mesh : ReflectionMesh
+    waiting : (k,) bool, faces of the new mesh that may have to be split again
+    """
     parent, side, vertex = _on_sides(mesh, surfaces, among)
     new = np.diff(parent, prepend=-1) != 0
     first, count = np.flatnonzero(new), np.diff(np.append(np.flatnonzero(new), len(parent)))
     parent, side = parent[first], side[first]
     corners = mesh.triangles[parent[:, None], (side[:, None] + np.arange(3)) % 3]
-    # from the side's start to each of the vertices, and on to its end: a part of the face each
+    # make one part for each piece of the side, from its start over the vertices to its end
     part, run = ranges(np.zeros(len(first), dtype=np.int64), count + 1)
     before = np.where(part == 0, corners[run, 0], vertex[np.maximum(first[run] + part - 1, 0)])
     after = np.where(part == count[run], corners[run, 1], vertex[np.minimum(first[run] + part, len(vertex) - 1)])
@@ -42,7 +53,7 @@ def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
     arrays = mesh.of_faces(kept[order])
     arrays["source_weights"] = np.concatenate(
         (mesh.source_weights[rest], _weights(mesh, parent[run], side[run], triangles)))[order]
-    # what was not split may be on another side
+    # faces not split now may still have vertices on another side
     again = mask(len(mesh.triangles), parent[~right])
     waiting = np.concatenate((again[rest], np.ones(len(run), dtype=bool)))
     split = replace(mesh, triangles=np.concatenate((mesh.triangles[rest], triangles))[order], **arrays)
@@ -50,8 +61,20 @@ def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
 
 
 def _on_sides(mesh: ReflectionMesh, surfaces: Surfaces, among: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of faces `among` (m,) bool those (k,), in order, with vertices on a side, one side of each, and these vertices
-    from its start to its end: ends of borders of other faces, which show the surface going on."""
+    """Find faces with vertices on a side.
+
+    The vertices are ends of borders of other faces that continue the same surface. For each face, one side is returned.
+
+    Parameters
+    ----------
+    among : (m,) bool, faces to test
+
+    Returns
+    -------
+    face : (k,) int64, rising, one entry for each vertex
+    side : (k,) int64, number of the side in the face
+    vertex : (k,) int64, vertices in order from the side's start to its end
+    """
     borders, pixels = Borders.of(mesh.triangles, surfaces.pixels), surfaces.pixels
     vertex, holder = borders.ends()
     borders = borders.select(among[borders.face])
@@ -67,14 +90,19 @@ def _on_sides(mesh: ReflectionMesh, surfaces: Surfaces, among: np.ndarray) -> tu
     order = np.lexsort((vertex, along, side, face))
     vertex, face, side = vertex[order], face[order], side[order]
     new = np.diff(face, prepend=-1) != 0
-    # of each face the side of its first vertex, and no vertex twice
+    # keep for each face the side of its first vertex, and drop duplicate vertices
     own = (side == side[new][np.cumsum(new) - 1]) & (new | (np.diff(vertex, prepend=-1) != 0))
     return face[own], side[own], vertex[own]
 
 
 def _weights(mesh: ReflectionMesh, parent: np.ndarray, side: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (k, 3, 3) of the corners of parts of faces, in the source triangles of these; their first
-    two corners lie on a side."""
+    """Return barycentric coordinates (k, 3, 3) of the corners of parts of faces in their source triangles.
+
+    Parameters
+    ----------
+    parent, side : (k,) int64, face that each part lies in, and its side that is split
+    triangles : (k, 3) int64, vertices of the parts; the first two lie on the side
+    """
     start, end = mesh.triangles[parent, side], mesh.triangles[parent, next_corner(side)]
     own = mesh.source_weights[parent[:, None], (side[:, None] + np.arange(3)) % 3]
     origin = mesh.reflected_position[start].T

@@ -1,4 +1,4 @@
-"""Whether one surface goes on from one face of a result to another that lies beside it."""
+"""Test if one surface continues from a face of a result to a neighbouring face."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,25 +9,38 @@ from ..geometry import TriangleMesh, area_normals, distinct, dot, edge_lengths, 
 from ..result import ReflectionMesh
 from ..support import breathe
 
-ONWARD = 0.75  # pixels: between faces that show points farther apart than they move them by this the surface ends
-CREASE = np.cos(np.radians(40.0))  # of the angle between surfaces that meet in a line, as wherever lines are told
-TINY = 1e-9  # pixels: no face is told to be smaller
+ONWARD = 0.75  # pixels: largest gap between the points that two faces show, in image scale, on one surface
+CREASE = np.cos(np.radians(40.0))  # cosine of the crease angle: neighbouring triangles with a larger angle have a line
+TINY = 1e-9  # pixels: lower bound for the size of a face, to avoid division by zero
 
 
 @dataclass(frozen=True)
 class Surfaces:
-    """Where vertices (n) are in the picture, `pixels` (n, 2), and what was reflected."""
+    """Data to test if a surface continues between two faces.
+
+    Attributes
+    ----------
+    pixels : (n, 2) float64, vertices of the result in the picture
+    scene : TriangleMesh, the reflected scene
+    owner : (s,) int, object number of each triangle of the scene
+    """
 
     pixels: np.ndarray
     scene: TriangleMesh
     owner: np.ndarray
 
     def goes_on(self, mesh: ReflectionMesh, faces: tuple, ends: tuple) -> np.ndarray:
-        """Whether one surface goes on from one of two faces (k,) each to the other, where a vertex (k,) of the one lies
-        on a side of the other, from a start to an end."""
+        """Return True (k,) for pairs of faces that show one continuous surface.
+
+        Parameters
+        ----------
+        faces : tuple, two faces (k,) each
+        ends : tuple, (k,) each
+            A vertex of the first face, and the start and the end of the second face's side that it lies on.
+        """
         one, other = (mesh.source_face[face] for face in faces)
         bounces = mesh.bounces
-        assert bounces is not None  # every mesh has them
+        assert bounces is not None  # every result mesh has them
         found = (self.owner[one] == self.owner[other]) & (bounces[faces[0]] == bounces[faces[1]])
         some = np.flatnonzero(found)
         point, start, end = (mesh.reflected_position[vertex[some]].T for vertex in ends)
@@ -44,7 +57,7 @@ class Surfaces:
         return found
 
     def _motion(self, mesh: ReflectionMesh, face: np.ndarray) -> np.ndarray:
-        """By how much the points that faces (k,) show are apart, for each pixel."""
+        """Return the distance (k,) between reflected points per pixel for faces `face` (k,), in scene units."""
         once, which = distinct(face)
         corners = mesh.triangles[once]
         return (edge_lengths(mesh.reflected_position[corners]).max(axis=1)

@@ -1,6 +1,6 @@
-"""The largest part of a mirror in which a point has one image at the most, and the way of points to these images.
+"""The patch, the largest part of a mirror in which a point has at most one image, and the search for these images.
 
-In come cameras and points; out come the mirror's triangles, places on them and distances.
+Input are cameras and points. Output are for each image the mirror's triangle, the place on it and the distance.
 """
 from .patch import Patch, speck
 from .patch_nodes import Descent, Walk

@@ -1,7 +1,7 @@
-"""The tree of vertices descended by the images that a patch shows of its nodes.
+"""Traversal of the vertex tree by the images of its nodes on a patch.
 
-Newton's method finds the image of a node's middle, and the map's derivative there tells so closely where what the node
-holds is seen that two more steps find it, without cones or cubics. A node smaller than what is seen is not opened.
+Newton's method finds the image of a node's centre. The map's derivative there predicts the images of the node's content
+so well that two more steps find them, without cones or cubics. A node smaller than a pixel threshold is not opened.
 """
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from ..trees import Cones, StandIns, VertexTree, along_curve
 from .patch import Patch
 from .walk import changes, find, find_near
 
-NODES_AT_ONCE = 2048  # what they hold fits the cache
-RAYS, SHEAVES = 9, 6  # two to the power of so many rays from all over the patch, and parts of it
-FAR_AT_ONCE = 512  # points of which all these rays are asked
-WIDER = 1.25  # than the rays at the corners of triangles: those between them
-LARGER = 1.25  # than where a node's middle is seen: what the rest of it is magnified by at most
+NODES_AT_ONCE = 2048  # nodes per chunk, whose content fits the CPU cache
+RAYS, SHEAVES = 9, 6  # base-2 logarithms of the number of sample rays, and of the number of cones over the patch
+FAR_AT_ONCE = 512  # points per chunk that are compared with all sample rays
+WIDER = 1.25  # factor on the width of cones, for rays between the corners of triangles
+LARGER = 1.25  # factor on the magnification at a node's centre, for the rest of the node
 
 
 class Walk:
-    """Newton's method for the images that a patch shows of points (3, n) from the eye."""
+    """Newton's method for the images of points on a patch; points are (3, n), relative to the eye."""
 
     def __init__(self, patch: Patch) -> None:
         self.patch, self.asked = patch, 0
@@ -33,20 +33,23 @@ class Walk:
         self.place, self.ray, self.length = place.T, unit(ray).T, norm(ray)
 
     def images(self, points: np.ndarray, nodes: NodeImages, node: np.ndarray) -> tuple:
-        """As `find`, from where the `nodes` tell, of which each point lies in one, `node` (n,): most are found so."""
+        """Find images like `find`, from starts predicted by `nodes`; most images are found from these.
+
+        `node` (n,) is the node of `nodes` that each point lies in.
+        """
         self.asked += points.shape[1]
         place = nodes.around(node, points)
         member, uv, s, found = find_near(self.patch, nodes.member[node], place[:2], place[2], points)
         return member, uv, s, found & nodes.found[node]
 
     def afresh(self, points: np.ndarray) -> tuple:
-        """The same from where rays pass near."""
+        """Find images like `find`, from starts at the sample rays that pass nearest to the `points` (3, n)."""
         parts = [self.near(points[:, part]) for part in portions(max(points.shape[1], 1), FAR_AT_ONCE)]
         member, uv, s = (np.concatenate(part, axis=-1) for part in zip(*parts))
         return find(self.patch, member, uv, s, points)
 
     def near(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Triangle, (u, v) and s of the ray that passes nearest to each point, of some all over the patch."""
+        """Return triangle (n,), (u, v) (2, n) and s (n,) of the sample ray that passes nearest to each point."""
         middle = self.place.mean(axis=0)
         place, point = self.place - middle, points.T - middle
         along = np.maximum(point @ self.ray.T - (place * self.ray).sum(axis=1), 0.0)
@@ -57,16 +60,16 @@ class Walk:
 
 @dataclass(frozen=True)
 class NodeImages:
-    """Images of the middles of nodes (k).
+    """Images of the centres of nodes (k).
 
     Attributes
     ----------
-    found : (k,) bool, which of them there are
-    point : (3, k) float64, from the eye
-    member : (k,) int64, triangles of the patch
-    place : (3, k) float64, u, v and s
-    change : (9, k) float64, derivatives of these three by the point
-    scale : (k,) float64, pixels that a scene unit there is long at most
+    found : (k,) bool, True for centres with an image
+    point : (3, k) float64, centres relative to the eye
+    member : (k,) int64, triangles of the patch that show them
+    place : (3, k) float64, u, v and s of the images
+    change : (9, k) float64, derivatives of u, v and s with respect to the point
+    scale : (k,) float64, largest image length of one scene unit there, in pixels
     """
 
     found: np.ndarray
@@ -78,7 +81,7 @@ class NodeImages:
 
     @classmethod
     def of(cls, walk: Walk, points: np.ndarray, above: NodeImages | None, parent: np.ndarray) -> NodeImages:
-        """Images of points (3, k) from the eye, in nodes `parent` (k,) of those above."""
+        """Find the images of `points` (3, k), relative to the eye; `parent` (k,) are their nodes in `above`, if any."""
         if above is None:
             member, uv, s, found = walk.afresh(points)
         else:
@@ -91,7 +94,7 @@ class NodeImages:
         return cls(found, points, member, np.concatenate((uv, s[None])), change.reshape(9, -1), scale)
 
     def around(self, node: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Places (3, n) at which `points` (3, n) from the eye, in nodes (n,), should be seen by the derivatives."""
+        """Predict u, v and s (3, n) of the images of `points` (3, n), in nodes `node` (n,), from the derivatives."""
         way, place = points - columns(self.point, node), columns(self.place, node)
         for row, change in zip(place, columns(self.change, node).reshape(3, 3, -1)):
             row += dot(change, way)
@@ -100,15 +103,15 @@ class NodeImages:
 
 @dataclass(frozen=True)
 class NodeVertices:
-    """Vertices (n) that are to be looked for.
+    """Vertices (n) whose images are to be found.
 
     Attributes
     ----------
     nodes : NodeImages
-    node : (n,) int64, which of the nodes each lies in
-    vertex : (n,) int64
+    node : (n,) int64, index of the node in `nodes` that each lies in
+    vertex : (n,) int64, indices of vertices
     stood : (n,) float64
-        Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
+        Radius of the sphere around the vertices that this one represents, 0 if it represents only itself.
     """
 
     nodes: NodeImages
@@ -118,11 +121,13 @@ class NodeVertices:
 
 
 class Descent:
-    """How the vertices of a tree come to a patch, of nodes smaller than `least` pixels one, or one of each `part` (v,).
+    """Traversal that yields the vertices of a tree that a patch may show.
+
+    A node smaller than `least` pixels yields one representative vertex, or one for each `part` (v,) that it holds.
 
     Attributes
     ----------
-    standing : (v,) int64, for each vertex of the mesh the one that stands for it
+    standing : (v,) int64, for each vertex of the mesh its representative
     """
 
     def __init__(self, walk: Walk, tree: VertexTree, least: float, part: np.ndarray | None = None) -> None:
@@ -132,7 +137,7 @@ class Descent:
         self._small: list[tuple[int, np.ndarray, np.ndarray]] = []
 
     def vertices(self) -> Generator[NodeVertices, None, None]:
-        """Those that the patch may show; of a small node one."""
+        """Yield the vertices that the patch may show; representatives for small nodes."""
         tree = self.tree
         level, node = tree.top()
         waiting: list[tuple[int, np.ndarray, NodeImages | None, np.ndarray]] = [(level, node, None, node)]
@@ -158,7 +163,10 @@ class Descent:
 
     def _opened(self, level: int, node: np.ndarray, images: NodeImages,
                 row: np.ndarray) -> tuple[np.ndarray, NodeVertices]:
-        """Which nodes (n,), seen about where the images (n,) tell, are to be opened; vertices that stand for others."""
+        """Return True (n,) for nodes to open, and the representative vertices of the other ones.
+
+        `row` (n,) is the entry of `images` with the magnification at each node.
+        """
         scale = LARGER * images.scale[row]
         small = images.found[row] & self.tree.small(level, node, scale, self.least)
         some = np.flatnonzero(small)
@@ -167,14 +175,16 @@ class Descent:
         return ~small, NodeVertices(images, row[some][stand.node], stand.vertex, stand.radius)
 
     def _stand(self, level: int, node: np.ndarray) -> StandIns:
-        """The vertices that stand for all in nodes (n,) from now on."""
+        """Choose the vertices that represent all vertices in nodes `node` (n,), and record them in `standing`."""
         stand = self.tree.stand_ins(level, node, self.part)
         self.standing[stand.held] = stand.vertex[stand.own]
         return stand
 
     def fall_apart(self, asked: np.ndarray, least: float) -> None:
-        """Let small nodes that hold a vertex which some `asked` (v,) one stands for fall apart into such as are smaller
-        than `least` pixels."""
+        """Divide small nodes further, until each is smaller than `least` pixels, and update `standing`.
+
+        Only nodes with a vertex whose representative is in `asked` (v,) bool are divided.
+        """
         tree = self.tree
         for level, node, scale in self._small:
             held, run = tree.held(level, node)
@@ -191,7 +201,7 @@ class Descent:
                 scale = scale[parent]
 
     def _may_be_seen(self, sphere: np.ndarray) -> np.ndarray:
-        """Which spheres (4, n) some ray of the patch may touch."""
+        """Return True (n,) for spheres (4, n) that some ray of the patch may touch."""
         sheaf, count = len(self.sheaves.radius), sphere.shape[1]
         touched = self.sheaves.touch(np.repeat(np.arange(sheaf), count), np.tile(sphere[:3], sheaf),
                                      np.tile(sphere[3], sheaf))
@@ -199,7 +209,7 @@ class Descent:
 
 
 def _groups(patch: Patch, depth: int) -> np.ndarray:
-    """The triangles of a patch in 2**depth groups (g, m), or fewer, of those that lie together; some twice."""
+    """Divide the triangles of a patch into up to 2**depth groups of neighbours (g, m); some triangles occur twice."""
     order = along_curve(patch.cameras.places[:, patch.cameras.corners].mean(axis=2).T)
     count = 2**min(depth, int(np.log2(len(order))))
     start = np.arange(count + 1) * len(order) // count
@@ -207,7 +217,7 @@ def _groups(patch: Patch, depth: int) -> np.ndarray:
 
 
 def _sheaves(patch: Patch) -> Cones:
-    """Cones round all rays of the patch, each round those of many triangles."""
+    """Return cones that bound all rays of the patch, each the rays of a group of triangles."""
     cameras, groups = patch.cameras, _groups(patch, SHEAVES)
     places, rays = (np.take(part, cameras.corners[groups], axis=1).reshape(3, len(groups), -1)
                     for part in (cameras.places, cameras.rays))

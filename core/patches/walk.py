@@ -1,7 +1,6 @@
 """Images of points on a patch: Newton's method on the true map, with a walk over the mirror's triangles.
 
-An image is a root of Q(u, v) + s R(u, v) = P; on a patch there is one at the most, and any start that leads to it will
-do.
+An image is a root of Q(u, v) + s R(u, v) = P. On a patch there is at most one, so any start that converges is good.
 """
 from __future__ import annotations
 
@@ -14,41 +13,54 @@ from ..geometry import columns, cross, dot
 from ..support import portions
 from .patch import Patch
 
-AT_ONCE = 8192  # points: what their arrays take fits the cache
-STEPS, LOOKS = 2, 40  # of Newton's method between looks at where it is; of such looks
-NEAR_LOOKS = 6  # of one step each, from a near start
-FEW = 4  # looks after which most have arrived
-ARRIVED = 1e-7  # of a mirror triangle: the step after which the next is rounding
-NEARLY = 1e-5  # the same, where the next is about the square of this
-LONGEST = 1.5  # mirror triangles: no step goes further
-FUTILE = 8.0  # times its last step that a point lies beyond the border, or that step all of a look: it stays so
-INSIDE = 1e-6  # of a triangle: rounding
+AT_ONCE = 8192  # points per chunk, whose arrays fit the CPU cache
+STEPS, LOOKS = 2, 40  # Newton steps per round, after which the triangle is checked; largest number of rounds
+NEAR_LOOKS = 6  # largest number of rounds, of one step each, from a near start
+FEW = 4  # rounds after which most points have converged
+ARRIVED = 1e-7  # length of a step in (u, v), below which the point has converged: the next step is rounding
+NEARLY = 1e-5  # the same from near starts, where the error is about the square of the last step
+LONGEST = 1.5  # longest step, in (u, v)
+FUTILE = 8.0  # ratio that means divergence: distance over the border to last step, or last step to a round's motion
+INSIDE = 1e-6  # barycentric tolerance for rounding: points this little outside of a triangle count as inside
 
 
 def find(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
          points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Triangles, (u, v) and s of the images of `points` (3, n) from the eye, and which of them there are, each looked
-    for from a start."""
+    """Find the images of points on a patch by Newton's method.
+
+    Parameters
+    ----------
+    member, uv, s : (n,) int64, (2, n) float64, (n,) float64, start: triangle of the patch, place on it, distance
+    points : (3, n) float64, relative to the eye
+
+    Returns
+    -------
+    member, uv, s : the same for the images
+    found : (n,) bool, True for points with an image
+    """
     return _found(_Walk.of(patch, member, uv, s, points), LOOKS)
 
 
 def find_near(patch: Patch, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
               points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """The same, from starts most of which are so near that one step arrives."""
+    """Find images like `find`, from starts that are mostly so near that one step is enough."""
     return _found(replace(_Walk.of(patch, member, uv, s, points), steps=1, arrived=NEARLY), NEAR_LOOKS)
 
 
 def _found(walk: _Walk, looks: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     left = walk.walked(np.arange(len(walk.member)), FEW)
-    # some go on far longer than the others: those of all chunks do so together
+    # a few points need many more rounds: continue with those of all chunks together
     walk.walked(left, looks - FEW)
     return walk.member, walk.uv, walk.s, walk.found
 
 
 @dataclass(frozen=True)
 class _Walk:
-    """Points (n) on their way to their images, with so many steps between looks; `before` (n,) are the triangles that
-    they came from, and a step of less than `arrived` is the last."""
+    """State of Newton's method for n points.
+
+    Each round makes `steps` steps. `before` (n,) are the triangles that the points came from, -1 for none. A step
+    shorter than `arrived` is the last one.
+    """
 
     patch: Patch
     member: np.ndarray
@@ -66,7 +78,7 @@ class _Walk:
         return cls(patch, member.copy(), uv.copy(), s.copy(), points, np.full(count, -1), np.zeros(count, dtype=bool))
 
     def walked(self, active: np.ndarray, looks: int) -> np.ndarray:
-        """Those of the points `active` that are still on their way after so many looks."""
+        """Run up to `looks` rounds for the points `active`, and return the indices of those not finished."""
         left = [active[:0]]
         for part in portions(len(active), AT_ONCE):
             left.append(active[part])
@@ -90,7 +102,7 @@ class _Walk:
         weights = np.stack((1.0 - u - v, u, v))
         lowest = weights.argmin(axis=0)
         beyond = patch.across[member[active], lowest]
-        # left by either of two triangles to the other, or to none: it is not there yet, or nowhere
+        # a point that goes back to its last triangle, or over the border, has not converged yet, or has no image
         back = ~inside & ((beyond == before[active]) | (beyond < 0))
         before[active[back]] = -1
         walking = ~inside & ~back
@@ -107,7 +119,7 @@ class _Walk:
 
 
 def newton(patch: Patch, member, uv, s, points, steps: int = STEPS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(u, v) and s after steps of Newton's method, and how long the last one was in (u, v)."""
+    """Make `steps` Newton steps; return uv (2, n), s (n,), and the length (n,) of the last step in (u, v)."""
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(steps):
         place, c0, c1, ray = _moved(patch, shape, uv, s)
@@ -121,7 +133,7 @@ def newton(patch: Patch, member, uv, s, points, steps: int = STEPS) -> tuple[np.
 
 
 def _moved(patch: Patch, shape, uv, s) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Places (3, n), the derivatives of Q + s R along u and v, and the rays R."""
+    """Return the places Q, the derivatives of Q + s R with respect to u and to v, and the rays R, all (3, n)."""
     a, u, v, n0, nu, nv = shape
     place, n = uv[0] * u, uv[0] * nu
     place += a
@@ -134,7 +146,7 @@ def _moved(patch: Patch, shape, uv, s) -> tuple[np.ndarray, np.ndarray, np.ndarr
     farther, sides = s * slope, []
     twice *= s
     for along, turn in ((u, nu), (v, nv)):
-        # R = d - slope n, where the direction d moves with the place but in orthographic views
+        # R = d - slope n; the direction d changes with the place, except in orthographic views
         change = dot(arriving, turn) - slope * dot(n, turn)
         side = along * (1.0 if orthographic else 1.0 + s)
         if not orthographic:
@@ -147,7 +159,7 @@ def _moved(patch: Patch, shape, uv, s) -> tuple[np.ndarray, np.ndarray, np.ndarr
 
 
 def _solved(c0, c1, ray, right) -> np.ndarray:
-    """u, v, s (3, n) with u c0 + v c1 + s R = right."""
+    """Solve u c0 + v c1 + s R = right for u, v, s (3, n)."""
     normal, turned = cross(c1, ray), cross(c0, right)
     determinant = dot(c0, normal)
     found = np.stack((dot(right, normal), dot(turned, ray), -dot(turned, c1)))
@@ -156,8 +168,13 @@ def _solved(c0, c1, ray, right) -> np.ndarray:
 
 
 def changes(patch: Patch, member, uv, s) -> tuple[np.ndarray, np.ndarray]:
-    """(3, 3, n): by what u, v and s of images change where their points move, as [which, component]; and (2, 3, n), by
-    how many pixels they move then."""
+    """Return the derivatives of images with respect to their points.
+
+    Returns
+    -------
+    inverse : (3, 3, n) float64, gradients of u, v and s, as [u v or s, component, image]
+    pixels : (2, 3, n) float64, gradients of the picture position in pixels, as [x or y, component, image]
+    """
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     place, *moved = _moved(patch, shape, uv, s)
     inverse = _inverse(*moved)
@@ -166,7 +183,7 @@ def changes(patch: Patch, member, uv, s) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _inverse(c0, c1, ray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The rows (3, n) of the inverse of matrices with the columns c0, c1 and R."""
+    """Return the rows (3, n) of the inverse of matrices with the columns c0, c1 and R."""
     normal = cross(c1, ray)
     determinant = dot(c0, normal)
     inverse = 1.0 / np.where(np.abs(determinant) > 1e-300, determinant, 1e-300)

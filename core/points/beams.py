@@ -1,9 +1,9 @@
-"""Beams of cameras: a close test of points against the three rays, before the cubic is solved.
+"""Beams of cameras: a tight test of points against the three corner rays, before the cubic is solved.
 
-Across a plane at a point's height above the camera the corner rays mark a triangle. With all rays rising, a point
-Q(W) + s R(W) at that height has s between the s_i at which the corner rays reach it, and lies no farther from the
-place sum W_i (V_i + s_i R_i) in the triangle than the spread of the s_i times the largest part of a ray across: a
-point farther outside is not in the beam.
+In the plane at a point's height above the camera, the corner rays mark a triangle. If all rays rise, a point
+Q(W) + s R(W) at that height has s between the values s_i at which the corner rays reach the plane. Its distance from
+the place sum W_i (V_i + s_i R_i) in the triangle is at most the range of the s_i times the largest component of a ray
+in the plane. A point farther outside of the triangle is not in the beam.
 """
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from ..cameras import Cameras
 from ..geometry import across, dot, norm
 from ..trees import Cones
 
-ROUNDING = 1e-9  # of what a point's distance is measured in
+ROUNDING = 1e-9  # tolerance for rounding, relative to a point's distance plus the camera's radius
 
 
 @dataclass(frozen=True)
 class Beams:
-    """Beams (n) in frames of their own: two directions across, and the cone's axis.
+    """Beams (n) of cameras in local frames: two directions perpendicular to the cone's axis, and the axis.
 
     Attributes
     ----------
-    frame : (4, 3, n) float64, the middle of the camera, and the frame's three directions
-    places, rays : (3, 3, n) float64, entry [k, i]: component k of corner i in the frame
-    across : (n,) float64, the largest part of a ray across the axis
+    frame : (4, 3, n) float64, the centre of the camera in world space, and the frame's three unit vectors
+    places, rays : (3, 3, n) float64, corners and their rays in the frame, as [component, corner, beam]
+    across : (n,) float64, largest component of a ray perpendicular to the axis
     size : (n,) float64, radius of the camera
     """
 
@@ -47,7 +47,7 @@ class Beams:
         return cls(frame, places, rays, np.hypot(rays[0], rays[1]).max(axis=0), cones.radius)
 
     def hold(self, camera: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Whether the beams `camera` (n,) may hold `points` (3, n); never a false no."""
+        """Return True (n,) if beam `camera` (n,) may hold the point (3, n); the test is never wrongly False."""
         middle, *ways = (np.take(part, camera, axis=1) for part in self.frame)
         offset = points - middle
         x, y, z = (dot(way, offset) for way in ways)

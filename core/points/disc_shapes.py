@@ -1,8 +1,8 @@
-"""Discs: what stands in the picture for a piece of the diffuse surface round one of its vertices.
+"""Shapes of discs, which represent in the picture the diffuse surface around one vertex.
 
 The true map takes a small circle on the diffuse surface to an ellipse in the picture: its inverse derivative is the
-local magnification. The disc fills that ellipse, flat on the mirror's triangle and slid with its middle, so that no
-part of it sinks behind the mirror and layers stay in the order of their paths.
+local magnification. The disc fills that ellipse. It is parallel to the mirror's triangle and moves towards the eye with
+its centre, so that no part of it lies behind the mirror and layers keep the order of their paths.
 """
 from __future__ import annotations
 
@@ -11,34 +11,35 @@ import numpy as np
 from ..geometry import dot, norm, unit
 from ..views import View
 
-SMALLEST = 0.75  # pixels: a disc of half a pixel's diagonal holds the middle of a pixel wherever it lies
-LARGEST = 16.0  # pixels: no disc stands for more
-MAGNIFIED = 16.0  # times what the mirror would show without focusing; more is close to a caustic, where maps bend
-LEAST_FALL = 0.25  # sine at which a ray meets a surface at least: at an edge of it the vertex has but one normal
-STEEPEST = 8.0  # depth over breadth of a disc, as the eye sees it
+SMALLEST = 0.75  # pixels: a disc with a radius of half a pixel's diagonal covers a pixel centre wherever it lies
+LARGEST = 16.0  # pixels: largest half axis of a disc
+MAGNIFIED = 16.0  # largest magnification relative to a mirror without focusing: near a caustic the linear map fails
+LEAST_FALL = 0.25  # smallest sine between a ray and a surface: vertex normals at sharp edges are not reliable
+STEEPEST = 8.0  # largest depth of a disc along the view direction, in multiples of its visible half axis
 
 
 def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
                      reach: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Images of circles round diffuse points, as half axes in pixels.
+    """Compute the images of circles around diffuse points, as half axes in pixels.
 
     Parameters
     ----------
-    seen : tuple, what `MirrorMap.linearise` tells along `ALONG_UV` where on the mirror the middles are seen
-    s : (n,) float64, how far along the rays they lie
-    normal : (3, n) float64, unit normal of the circle's plane; zero where it faces the ray
+    seen : tuple, result of `MirrorMap.linearise` along `ALONG_UV` at the images of the centres
+    s : (n,) float64, distances of the centres along the rays
+    normal : (3, n) float64, unit normal of the circle's plane; zero for circles that face the ray
     reach : (n,) float64, radius of the circle, in scene units
 
     Returns
     -------
-    axes : (2, 2, n) float64, [x or y, longer or shorter], at right angles, between `SMALLEST` and `LARGEST`
-    wanted : (n,) float64, length of the longer one without the bound above
+    axes : (2, 2, n) float64
+        Perpendicular half axes as [x or y, longer or shorter], with lengths between `SMALLEST` and `LARGEST`.
+    wanted : (n,) float64, length of the longer half axis before clamping
     """
     place, ray, moves = seen
     (a, b), (c, d) = ([dot(gradient, move) for move, _ in moves] for gradient in view.pixel_gradients(place))
     area = a * d - b * c
     area = np.where(np.abs(area) > 1e-14 * (np.abs(a * d) + np.abs(b * c)) + 1e-150, area, 1e-150)
-    # a pixel to the right and one up, in (u, v)
+    # moves in (u, v) by one pixel to the right and by one pixel up
     ways = (d / area, -c / area), (-b / area, a / area)
     ahead = unit(ray)
     normal = np.where(dot(normal, normal) > 0.0, normal, ahead)
@@ -54,7 +55,7 @@ def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
         gram = np.nan_to_num([x * (x * uu + 2.0 * y * uv) + y * y * vv, x * (z * uu + w * uv) + y * (z * uv + w * vv),
                               z * (z * uu + 2.0 * w * uv) + w * w * vv], posinf=1e300, neginf=-1e300)
         direction, motion = _principal(gram)
-        # near a caustic what the mirror's place and its ray's turning move the point by cancel
+        # near a caustic the motion of the ray's origin and of its direction cancel: bound the magnification
         u, v = (direction[0, 0] * right + direction[1, 0] * up for right, up in zip(*ways))
         still, moving = (u * moves[0][k] + v * moves[1][k] for k in (0, 1))
         apart = sum(norm(part - dot(part, ahead) * ahead) for part in (still, s * moving))
@@ -66,18 +67,18 @@ def picture_ellipses(view: View, seen: tuple, s: np.ndarray, normal: np.ndarray,
 
 def flat_discs(view: View, axes: np.ndarray, slope: np.ndarray | None,
                positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Discs in space that look from the eye like ellipses.
+    """Compute discs in space that look like given ellipses from the eye.
 
     Parameters
     ----------
     axes : (2, 2, n) float64, from `picture_ellipses`
-    slope : (3, n) float64 or None, normals of the planes to lie in; None for discs that face the eye
-    positions : (3, n) float64, where the middles of the ellipses are drawn
+    slope : (3, n) float64 or None, normals of the discs' planes; None for discs that face the eye
+    positions : (3, n) float64, centres of the discs in world space
 
     Returns
     -------
-    axes : (n, 2, 3) float64
-    radius : (n,) float64, the longer half axis as the eye sees it
+    axes : (n, 2, 3) float64, half axes in world space
+    radius : (n,) float64, longer half axis perpendicular to the view direction, in scene units
     """
     ahead = unit(view.directions(positions.T).T)
     depth = 1.0 if view.orthographic else view.depths(positions.T)
@@ -103,11 +104,14 @@ def flat_discs(view: View, axes: np.ndarray, slope: np.ndarray | None,
 
 
 def _principal(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of symmetric 2 x 2 matrices by their entries 00, 01, 11: unit eigenvectors (2, 2, n) as [x or y, which], that of
-    the smaller eigenvalue first, and the roots (2, n) of the eigenvalues."""
+    """Compute the eigenvectors of symmetric 2 x 2 matrices, and the square roots of their eigenvalues.
+
+    `gram` (3, n) holds the entries 00, 01 and 11. Return unit eigenvectors (2, 2, n) as [x or y, smaller or larger
+    eigenvalue], and the roots (2, n).
+    """
     half, off = 0.5 * (gram[0] - gram[2]), gram[1]
     spread = np.hypot(half, off)
-    # half the angle whose cosine and sine are half and off over spread
+    # half-angle formulas for the angle with cosine half / spread and sine off / spread
     some = np.maximum(spread, 1e-300)
     longer = np.sqrt(0.5 + 0.5 * np.where(spread > 0.0, np.abs(half) / some, 1.0))
     shorter = 0.5 * np.abs(off) / (some * longer)
@@ -116,7 +120,7 @@ def _principal(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     direction = np.stack((np.stack((-y, x)), np.stack((x, y))))
     middle = 0.5 * (gram[0] + gram[2])
     larger = middle + spread
-    # the product of both is the determinant, which keeps its digits where the smaller one cancels
+    # compute the smaller eigenvalue from the determinant, to avoid cancellation
     determinant = gram[0] * gram[2] - off * off
     smaller = np.divide(determinant, larger, out=np.zeros_like(larger), where=larger > 0.0)
     return direction, np.sqrt(np.maximum(np.stack((smaller, larger)), 0.0))

@@ -1,4 +1,4 @@
-"""Images of vertices on a patch, where each has one at the most, and just beyond its border."""
+"""Images of vertices on a patch, where each vertex has at most one image, and just across its border."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -12,21 +12,24 @@ from ..support import portions
 from ..trees import SMALL, PointTree
 from .point_images import PointImages
 
-AT_ONCE = 8192  # vertices: what their arrays take fits the cache
-BESIDE, STRAYING = 32.0, 1.0  # pixels: further over the border nothing is looked for; what cameras stray by
+AT_ONCE = 8192  # vertices per chunk, whose arrays fit the CPU cache
+BESIDE, STRAYING = 32.0, 1.0  # pixels: largest distance of a searched image from the border; deviation of cameras
 
 
-@np.errstate(all="ignore")  # what is too large or too small to be told has no image
+@np.errstate(all="ignore")  # values that overflow or underflow give no image
 def images_on_patch(patch: Patch, tree: PointTree,
                     elsewhere: np.ndarray) -> tuple[PointImages, np.ndarray, dict[str, int]]:
-    """The images that a patch shows of the vertices of a tree, and those just over its border to faces seen
-    `elsewhere`.
+    """Find the images of a tree's vertices on a patch, and just across its border.
+
+    Parameters
+    ----------
+    elsewhere : (k,) int64, mirror triangles outside of the patch that cameras show
 
     Returns
     -------
     images : PointImages
-    stood_for : (v,) bool, vertices of which another one is looked for
-    counts : dict, nodes visited, vertices looked for, both together, images found
+    stood_for : (v,) bool, True for vertices that another one represents
+    counts : dict, numbers of nodes visited, of vertices searched, of both together, and of images found
     """
     walk = Walk(patch)
     descent, wanted = Descent(walk, tree, SMALL), 0
@@ -50,7 +53,7 @@ def images_on_patch(patch: Patch, tree: PointTree,
 
 
 def _split(patch: Patch, vertex: np.ndarray, stood: np.ndarray, looked: tuple) -> tuple[PointImages, PointImages]:
-    """Images that are found, as what `find` tells, and what is left at other places."""
+    """Split the result `looked` of `find` into images found on the patch, and last places of the others."""
     member, uv, s, found = looked
     found &= least_weight(uv) >= -INSIDE
     images = PointImages(vertex, patch.face[member], uv, s, stood)
@@ -58,8 +61,11 @@ def _split(patch: Patch, vertex: np.ndarray, stood: np.ndarray, looked: tuple) -
 
 
 def _over_border(patch: Patch, images: PointImages, tree: PointTree, elsewhere: np.ndarray) -> PointImages:
-    """Images that Newton's method has left for over the border: the way to some on the patch leads round a corner of
-    it, and some close by are seen on the patch by the cameras there, which interpolate, and left to it."""
+    """Find images that Newton's method lost over the patch's border, by a walk over the whole mirror.
+
+    Some lie on the patch, but the walk to them leads around a corner of it. Others lie just across the border. The
+    cameras there interpolate, see these on the patch, and leave them to it. `images` holds the last places.
+    """
     mirror_map, view = patch.mirror_map, patch.view
 
     def pixels(face: np.ndarray, uv: np.ndarray) -> np.ndarray:

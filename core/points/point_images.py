@@ -1,4 +1,4 @@
-"""Images of vertices as points: where on the mirror each is truly seen, each once."""
+"""Images of vertices as points on the mirror, without duplicates."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ class PointImages(ColumnArrays):
 
     Attributes
     ----------
-    vertex : (n,) int64
-    face : (n,) int64, the mirror's triangle
-    uv : (2, n) float64
-    distance : (n,) float64, s
+    vertex : (n,) int64, index of the vertex
+    face : (n,) int64, mirror triangle of the image
+    uv : (2, n) float64, place of the image in that triangle
+    distance : (n,) float64, s, distance from the image to the vertex along the ray
     stood : (n,) float64
-        Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
+        Radius of the sphere around the vertices that this one represents, 0 if it represents only itself.
     """
 
     vertex: np.ndarray
@@ -36,13 +36,16 @@ class PointImages(ColumnArrays):
         return cls(whole, whole, places, places[0], places[0])
 
     def once(self, mirror_map: MirrorMap) -> PointImages:
-        """The images by their vertices; of several that are one, that which stands for most."""
+        """Return the images sorted by vertex, without duplicates; of duplicates, the one with the largest `stood`."""
         images = self.select(np.lexsort((-self.stood, self.vertex)))
         pixel = mirror_map.view.pixels(mirror_map.places(images.face, images.uv).T)
         return images.select(~repeated(images.vertex, pixel))
 
     def with_others(self, others: PointImages, mirror_map: MirrorMap, count: int) -> PointImages:
-        """These images, each of another one of `count` vertices, and the others that are none of them."""
+        """Join these images with `others`, without duplicates.
+
+        These images belong to different vertices; `count` is the number of all vertices.
+        """
         twice = mask(count, others.vertex)[self.vertex]
         return PointImages.joined((self.select(~twice),
                                    PointImages.joined((self.select(twice), others)).once(mirror_map)))

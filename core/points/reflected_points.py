@@ -1,6 +1,6 @@
 """Point-based rendering: every image of a diffuse vertex as a flat disc, for scenes finer than the picture.
 
-Nothing is clipped and nothing joined: where triangles are smaller than a pixel, what lies inside them cannot be seen.
+Triangles smaller than a pixel need neither clipping nor connected faces, because their inside cannot be seen.
 """
 from __future__ import annotations
 
@@ -22,14 +22,17 @@ from .patch_images import images_on_patch
 from .point_images import PointImages
 
 PAIRS_AT_ONCE = 131072
-AT_ONCE = 8192  # images: what the arrays of their discs take fits the cache
-ON_CAUSTIC = 1e-9  # magnification
+AT_ONCE = 8192  # images per chunk, whose arrays fit the CPU cache
+ON_CAUSTIC = 1e-9  # area growth below which an image counts as lying on a caustic
 
 
 def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors, placement: str,
                      progress: Progress) -> ReflectionMesh:
-    """Every image of the scene's vertices in the patch, and in the cameras of the rest, once, as a point with its
-    disc."""
+    """Compute all images of the scene's vertices, as points with discs.
+
+    The `patch`, if there is one, shows images on its part of the mirror; the `cameras` show those on the rest. Each
+    image is returned once.
+    """
     tree, mirror_map = met.tree, cameras.mirror_map
     assert isinstance(tree, PointTree) and isinstance(mirror_map, MirrorMap)  # points follow one bounce only
     images, stood_for, counts = _images(cameras, tree, met, progress)
@@ -39,7 +42,7 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
         images = own.with_others(images, mirror_map, len(stood_for))
         counts = {name: count + more[name] for name, count in counts.items()}
         stood_for |= also
-    # each camera's cone goes down the tree, and all of a patch at once
+    # one traversal of the tree for each camera, and one for the patch
     counts.update(descents=len(cameras) + (patch is not None), images=len(images), stood_for=int(stood_for.sum()))
     progress.next(0.75, "Building points")
     return _drawn(mirror_map, tree, images, (placement, met.slide), counts)
@@ -47,7 +50,10 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
 
 def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tuple[str, float],
            counts: dict[str, int]) -> ReflectionMesh:
-    """The images as points with their discs, by a placement and the share of what layers slide."""
+    """Build the result mesh of images, as points with discs.
+
+    `how` is the placement, one of `PLACEMENTS`, and the factor on the offset of layers (`SceneAndMirrors.slide`).
+    """
     placement, slide = how
     view, surface, count = mirror_map.view, mirror_map.surface, len(images)
     point, spot, flat = np.empty((3, count)), np.empty((3, count)), np.empty((count, 2, 3))
@@ -59,7 +65,7 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tup
         turned = grown(seen, some.distance)
         parity[part] = np.where(np.abs(turned) < ON_CAUSTIC, 0, np.sign(turned))
         normal, reach = columns(tree.normal, some.vertex), tree.reach[some.vertex] + some.stood
-        # what stands for others beside it has no one plane; beyond the horizon rays are made up, and magnify nothing
+        # representatives have no single plane; lifted rays beyond the shading horizon have no valid magnification
         normal[:, some.stood > 0.0] = 0.0
         reach[mirror_map.lifted(some.face, some.uv)] = 0.0
         axes[:, :, part], wanted[part] = picture_ellipses(view, seen, some.distance, normal, reach)
@@ -82,7 +88,14 @@ def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tup
 
 def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
             progress: Progress) -> tuple[PointImages, np.ndarray, dict[str, int]]:
-    """Images as each camera finds them, which vertices (v,) others stand for, and counts."""
+    """Find the images in each camera.
+
+    Returns
+    -------
+    images : PointImages
+    covered : (v,) bool, True for vertices that another one represents
+    counts : dict
+    """
     progress.next(0.2, "Finding reflected objects")
     cones, positions = Cones.around(cameras), tree.mesh.positions
     pairs = tree.trace(cones, Magnification.of(cameras))
@@ -104,13 +117,16 @@ def _images(cameras: Cameras, tree: PointTree, met: SceneAndMirrors,
 
 def _settled(cameras: Cameras, images: VertexImages, stood: np.ndarray, positions: np.ndarray,
              met: SceneAndMirrors) -> PointImages:
-    """Images that the eye sees, each once, on the triangle of the mirror that it truly lies on."""
+    """Move images to the mirror triangle that they lie on, and drop hidden and duplicate ones.
+
+    `stood` (n,) are the radii of the vertices that each image represents.
+    """
     mirror_map = cameras.mirror_map
     assert isinstance(mirror_map, MirrorMap)
     face = cameras.face[images.camera]
     face, uv, distance, real = settle(mirror_map, face, mirror_map.coordinates(face, images.place),
                                       images.distance, rows(positions[images.vertex]))
-    # what lies between two triangles is shown on the edge of one
+    # move images between two triangles to the edge of one
     uv = drawn_in(uv)
     place = mirror_map.places(face, uv)
     hidden = hidden_by_mirrors(met, cameras, images.camera, place, positions[images.vertex].T)
