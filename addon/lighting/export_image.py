@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from ..faults import Steps
-from .unwrapping import FaceBlock, Unwrapped
+from .unwrapping import Unwrapped
 
 WRITING = "Writing"
 # weights of the texels beside one, the nearest first, by the number of texels along a pixel's side: of ten filters the
@@ -38,9 +38,7 @@ def new_export_image(image: bpy.types.Image, light: np.ndarray, unwrapped: Unwra
 def _filtered(light: np.ndarray, unwrapped: Unwrapped, dense: int) -> np.ndarray:
     """Return light that each block of faces takes from neighbouring texels; points have a texel each."""
     light, weights = light.copy(), WEIGHTS[dense]
-    for block in unwrapped.blocks:
-        if not isinstance(block, FaceBlock):
-            continue
+    for block in (block for page in unwrapped.pages for block in page.blocks):
         (column, row), (width, height) = block.corner, block.size
         part = light[row:row + height, column:column + width]
         # along columns, then along rows
