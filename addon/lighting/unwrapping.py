@@ -25,6 +25,7 @@ MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead, as shares of its length
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
+FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
 MOST_BOUNCES = 1 << 8
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
@@ -138,8 +139,8 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
     spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
     for one in pages:
         spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
-    # a texel's place must be one of the picture, also where a corner lies beside the camera's view
-    spots = np.clip(np.nan_to_num(spots), 0.0, 1.0)
+    # corners beside the camera's view lie beside the picture: the part of their face that is seen would else be bent
+    spots = np.clip(np.nan_to_num(spots), -FARTHEST_SPOT, FARTHEST_SPOT)
     with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
     without = iter(of_points)
     return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], pages, points)
