@@ -136,7 +136,7 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
     image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
     image.colorspace_settings.name = "Non-Color"
     behind = Surroundings(behind=set(sequence.placements.values()) != {"VIRTUAL"})
-    material = new_material(image.name, image, image, [None], behind, whole, opacity=image.channels == 4)
+    material = new_material(image.name, image, image, [None], behind, whole)
     tree = material.node_tree
     for node in tree.nodes:
         if node.type == "TEX_IMAGE":

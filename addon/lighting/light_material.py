@@ -20,6 +20,7 @@ from ..writing.nodes.shader_builder import ShaderBuilder, cut, given
 
 WRITING = "Writing"
 OPAQUE = 0.999
+WITH_OPACITY = 4 * 32   # bits of a texel
 FOR_USD = "For USD"
 CLEAR = {"BSDF_TRANSPARENT", "BSDF_REFRACTION", "BSDF_GLASS"}   # shaders that light goes through
 
@@ -42,19 +43,18 @@ def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.t
 
 
 def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
-                 mirror: Sequence[bpy.types.Material | None], around: Surroundings, whole: AllOrNothing,
-                 opacity: bool = False) -> bpy.types.Material:
+                 mirror: Sequence[bpy.types.Material | None], around: Surroundings, whole: AllOrNothing
+                 ) -> bpy.types.Material:
     """Return a material that shows light as the materials of a `mirror` reflect it.
 
     Cycles and EEVEE show `image`, by the UV map `UV_MAP`, tinted and mixed as the mirror's own shader would at the true
-    angle. Exporters find `export_image`, which has all of that in it, as unlit base colour.
+    angle. Exporters find `export_image`, which has all of that in it, as unlit base colour. The last of
+    four channels of `image` is opacity.
 
     Parameters
     ----------
     mirror : sequence of bpy.types.Material or None
         None shows all of the light.
-    opacity : bool
-        The alpha of `image` is opacity.
     """
     material, shaders = _merged(name, mirror, whole)
     tree = material.node_tree
@@ -62,6 +62,7 @@ def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Imag
     light = _look_up(tree, image)
     build = MirrorPart(tree, light.outputs["Color"], around)
     shown = build.surface(mirror, shaders, own)
+    opacity = image.depth == WITH_OPACITY
     if opacity:
         shown = build.mixed(light.outputs["Alpha"], build.clear(), shown)
     output = one_output(tree)

@@ -286,7 +286,7 @@ class PointBlock(Block):
         else:
             target, origin = (vectors(self.placed.mesh, name) for name in ("reflected_position", "mirror_position"))
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
-        paths.lead[row, column] = POINT_LEAD * np.linalg.norm(target - origin, axis=1)
+        paths.lead[row, column] = (SEEN_LEAD if seen else POINT_LEAD) * np.linalg.norm(target - origin, axis=1)
 
     def _texels(self) -> np.ndarray:
         row, column = np.divmod(np.arange(self.count), self.size[0])

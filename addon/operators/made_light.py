@@ -36,15 +36,17 @@ from ..lighting import (
     write_colours,
 )
 from ..mirror_part import LaterMirrors, Surroundings
-from ..reading import has_fog, known_results, mirrors_of
+from ..reading import has_fog, known_results, mirrors_of, vectors
 from ..reading.materials import is_opaque, reflecting_materials, surface_shaders
 from ..rendering import shown_while
+from ..writing import DISC_SCALE
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
 RIM = 4                 # texels around faces that go on as the faces do
 FROM_MIRROR = 1e-4      # of a path: it begins at the mirror
+SMALL = 0.05            # of a disc's size
 MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
@@ -92,6 +94,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
         steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte, by_mirror=False)
         seen = yield from shown_while(steps, 0.8, RENDERING)
+    if not clear:
+        seen[..., 3] = 1.0
     yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
     if is_cut_out(seen[..., 3][paths_seen.used]):
         for material in materials.values():
@@ -102,7 +106,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     if flat:
         image = yield from part(new_image(NAME, seen if clear else seen[..., :3], whole), 0.99, 0.01)
         behind = Surroundings(behind=not all(result.reflection_mesh.window for result in lit))
-        plain = new_material(NAME, image, image, [None], behind, whole, opacity=clear)
+        plain = new_material(NAME, image, image, [None], behind, whole)
         for material in materials.values():
             whole.after(forget_light, material)
         materials = dict.fromkeys(materials, plain)
@@ -155,6 +159,9 @@ def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict, ma
             copy = result.copy()
             made.append(copy)
             copy.data = placed[result.data].mesh
+            if DISC_SCALE in copy.data.attributes:
+                copy.data = _with_small_discs(copy.data)
+                made.append(copy.data)
             for slot in copy.material_slots:
                 slot.link, slot.material = "OBJECT", shown[result.reflection_mesh.mirror, result.data]
             copy.visible_camera, copy.hide_render = True, False
@@ -162,6 +169,14 @@ def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict, ma
         yield
     finally:
         bpy.data.batch_remove(still_there(made))
+
+
+def _with_small_discs(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
+    """Return a copy of a mesh of points whose discs do not hide the middles of others."""
+    copy = mesh.copy()
+    scales = vectors(copy, DISC_SCALE)
+    copy.attributes[DISC_SCALE].data.foreach_set("vector", (SMALL * scales).astype(np.float32).reshape(-1))
+    return copy
 
 
 def _hide_from_camera(layer: bpy.types.LayerCollection) -> None:

@@ -299,11 +299,15 @@ def test_the_picture_lies_where_the_camera_sees_it_inside_faces_too(blank, room)
     mesh.uv_layers.active.uv.foreach_get("vector", spots.reshape(-1))
     told = spots.reshape(-1, 3, 2) * known["size"] / known["dense"]
     places = np.array([result.matrix_world @ vertex.co for vertex in mesh.vertices])[parts.corners(result)]
-    # the picture begins somewhere in the camera's view, and ends with that
     at = view.pixels(places.reshape(-1, 3)).reshape(told.shape)
     inside = ((at >= 0.0) & (at <= SIZE)).all(axis=(1, 2))
     assert inside.sum() > 500
-    places, told = places[inside], told[inside] - np.median((told - at)[inside], axis=(0, 1))
+    # what one object shows has its own place in the picture
+    source = parts.attribute(result, "source_object")
+    for number in np.unique(source):
+        of_source = source == number
+        told[of_source] -= np.median((told - at)[inside & of_source], axis=(0, 1))
+    places, told = places[inside], told[inside]
     for weights in np.random.default_rng(1).dirichlet((1.0, 1.0, 1.0), 8):
         true = view.pixels(np.einsum("c,fcx->fx", weights, places))
         assert np.abs(true - np.einsum("c,fcx->fx", weights, told)).max() < 0.2
@@ -349,7 +353,8 @@ def test_discs_show_their_light_in_solid_view_and_in_usd(blank, room, tmp_path):
     # of both maps each has its own values still
     assert np.ptp(parts.attribute(result, "UVMap")) == pytest.approx(1.0, abs=0.1)
     seen = picture_of(room, [result])
-    assert differs_by(seen, picture_brought_back(room, result, "usdc", tmp_path)) < 0.02
+    # measured: 0.0005
+    assert differs_by(seen, picture_brought_back(room, result, "usdc", tmp_path)) < 0.001
     bpy.ops.reflection_mesh.light(samples=1)
     assert shown() == ["Reflection Light"]
     bpy.context.scene.camera.location.x += 0.3     # where the light fits no more
@@ -365,4 +370,4 @@ def test_discs_that_are_made_a_mesh_go_out_by_gltf_with_their_light(blank, room,
     seen = picture_of(room, [result])
     parts.select(result)
     bpy.ops.object.convert(target="MESH")
-    assert differs_by(seen, picture_brought_back(room, bpy.context.object, "glb", tmp_path)) < 0.02
+    assert differs_by(seen, picture_brought_back(room, bpy.context.object, "glb", tmp_path)) < 0.001
