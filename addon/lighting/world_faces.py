@@ -121,8 +121,10 @@ def _inner(mask: np.ndarray) -> np.ndarray:
 
 
 def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) -> None:
-    """Add vertices (n, 3) and triangles (m, 3) that number them, and their edges; those that are there keep their marks,
-    which Blender forgets where it finds edges by itself."""
+    """Add vertices (n, 3), triangles (m, 3) that number them, and their edges; earlier edges keep their marks.
+
+    Blender's own search for edges would remove these marks.
+    """
     vertices, edges, loops = len(mesh.vertices), len(mesh.edges), len(mesh.loops)
     sides = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2).reshape(-1, 2), axis=1)
     ends, side = np.unique(sides, axis=0, return_inverse=True)

@@ -91,7 +91,7 @@ def choices():
         yield 0.5
     side = screen.region("UI")
     joined("choices", [part("roles", 6, 345, 200, 130), part("presets", 6, 370, 236, 168),
-                       part("unfolded", side.x, 480, side.width, 346)])
+                       part("unfolded", side.x, 480, side.width, 318)])
 
 
 def attributes():
