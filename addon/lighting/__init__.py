@@ -25,7 +25,7 @@ from .world_faces import WORLD
 from .world_material import show_world
 
 __all__ = ["FROM_MIRROR", "FurtherMirrors", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone", "can_be_lit",
-           "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light", "lacks_mattes", "lay_out",
-           "light_record", "light_sentence", "needs_light", "new_export_image", "new_image", "new_material",
+           "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light", "lacks_mattes",
+           "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image", "new_material",
            "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light", "show_previews",
            "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]

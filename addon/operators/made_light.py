@@ -14,7 +14,9 @@ from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     FROM_MIRROR,
     FurtherMirrors,
+    LightPaths,
     Placed,
+    Unwrapped,
     alone,
     can_be_lit,
     forget_light,
@@ -67,14 +69,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
     yield 0.04, "Reading the reflection"
     unwrapped = unwrap(list(placed.values()), view, dense)
-    shown = known_results(context.scene, context.view_layer)
-    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
-    if not paths.used.any():
-        raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     fog = has_fog(context.scene)
-    if fog:
-        # it counts from the mirror on
-        paths = replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR))
+    paths = _paths(context, lit, unwrapped, fog)
     with path_scene(context) as scene:
         light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
     image = yield from part(new_image(NAME, light[..., :3], whole), 0.7, 0.05)
@@ -122,6 +118,15 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
+
+
+def _paths(context: bpy.types.Context, lit: list, unwrapped: Unwrapped, fog: bool) -> LightPaths:
+    """Return the light path of each texel; with `fog` it begins at the mirror."""
+    shown = known_results(context.scene, context.view_layer)
+    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
+    if not paths.used.any():
+        raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
+    return replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR)) if fog else paths
 
 
 def _check(lit: list) -> None:
