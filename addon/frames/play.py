@@ -135,7 +135,8 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
     whole.undo(_remove, image)
     image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
     image.colorspace_settings.name = "Non-Color"
-    material = new_material(image.name, image, image, [None], Surroundings(), whole)
+    behind = Surroundings(behind=set(sequence.placements.values()) != {"VIRTUAL"})
+    material = new_material(image.name, image, image, [None], behind, whole)
     tree = material.node_tree
     for node in tree.nodes:
         if node.type == "TEX_IMAGE":

@@ -1,4 +1,4 @@
-"""The picture of light that other engines show: 8 bits, sRGB, filtered as a camera filters."""
+"""The picture of light that other engines show: 8 bits, sRGB, filtered as a camera filters, with its opacity."""
 from __future__ import annotations
 
 import bpy
@@ -11,28 +11,46 @@ WRITING = "Writing"
 # weights of the texels beside one, the nearest first, by the number of texels along a pixel's side: of ten filters the
 # best on the room and the sphere, in three.js at twice the size against Cycles with its own pixel filter
 WEIGHTS = {1: (0.05,), 2: (0.15, 0.02)}
+LEAST = 1e-6    # opacity of what has a colour
+NEARLY = 0.02   # from none or all of opacity
 
 
 def new_export_image(image: bpy.types.Image, light: np.ndarray, unwrapped: Unwrapped, dense: int) -> Steps[None]:
-    """Fill an image of 8 bits with light (height, width, 3): sRGB, nothing brighter than white.
+    """Fill an image of 8 bits with light and opacity (height, width, 4): sRGB, nothing brighter than white.
 
     Light is filtered before it is cut at white. A camera does the same, so that the outlines of lamps are as bright.
+    What is brighter than its opacity allows is made more opaque.
     """
     yield 0.0, WRITING
     light = np.clip(_filtered(light, unwrapped, dense), 0.0, 1.0)
+    light[..., 3] = light.max(axis=2)
+    light[..., :3] /= np.maximum(light[..., 3:], LEAST)
     # IEC 61966-2-1
-    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
+    colour = light[..., :3]
+    light[..., :3] = np.where(colour <= 0.0031308, 12.92 * colour,
+                              1.055 * np.maximum(colour, 0.0031308)**(1.0 / 2.4) - 0.055)
     yield 0.0, WRITING
-    height, width, channels = shown.shape
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :channels] = shown
+    height, width, _ = light.shape
     image.scale(width, height)
     image.alpha_mode = "CHANNEL_PACKED"
     yield 0.0, WRITING
-    image.pixels.foreach_set(rgba.ravel())
+    image.pixels.foreach_set(light.ravel())
     yield 0.0, WRITING
     image.pack()
     yield 0.0, WRITING
+
+
+def straight(light: np.ndarray) -> np.ndarray:
+    """Return light and opacity (height, width, 4) with the colour that each texel would have if it were opaque."""
+    light = light.copy()
+    light[..., :3] /= np.maximum(light[..., 3:], LEAST)
+    return light
+
+
+def is_cut_out(opacity: np.ndarray) -> bool:
+    """Return True if most that is not opaque is clear."""
+    clear, between = opacity < NEARLY, (opacity >= NEARLY) & (opacity <= 1.0 - NEARLY)
+    return bool(clear.sum() > between.sum())
 
 
 def _filtered(light: np.ndarray, unwrapped: Unwrapped, dense: int) -> np.ndarray:

@@ -48,8 +48,9 @@ def path_scene(context: bpy.types.Context) -> Iterator[bpy.types.Scene]:
         yield scene
 
 
-def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean: bool) -> Renders[np.ndarray]:
-    """Render the light that arrives along `paths`, (h, w, 3) float32 in linear light; black where there is none.
+def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean: bool, by_mirror: bool = True
+                 ) -> Renders[np.ndarray]:
+    """Render the light that arrives along `paths`, (h, w, 4) float32: linear light, and opacity; 0 where no path is.
 
     Parameters
     ----------
@@ -59,6 +60,8 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         For each texel.
     clean : bool
         Denoise the picture.
+    by_mirror : bool
+        Paths are those of a mirror's glossy rays. Others are those of the camera's own rays; they also tell opacity.
     """
     height, width = paths.used.shape
     with ExitStack() as back:
@@ -75,14 +78,16 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         camera.location = place
         size = radius * np.array((width, height)) / max(width, height)
         images = _images(paths, back)
+        portals = _portals(images, (width, height), back)
         # the camera looks down at a mirror, in which it sees the sheet above itself
-        for material, above, larger, rays in ((_portals(images, (width, height), back), 0.5, 1.0, "visible_glossy"),
-                                              (_perfect_mirror(back), -0.5, 1.5, "visible_camera")):
+        planes = [(portals, 0.5, 1.0, "visible_glossy"), (_perfect_mirror(back), -0.5, 1.5, "visible_camera")]
+        for material, above, larger, rays in planes if by_mirror else [(portals, -0.5, 1.0, "visible_camera")]:
             plane = _plane(scene, larger * size, place, above * radius, back)
             plane.data.materials.append(material)
             for name in SEEN_BY:
                 setattr(plane, name, name == rays)
         render = scene.render
+        render.film_transparent = not by_mirror
         render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
         render.pixel_aspect_x = render.pixel_aspect_y = 1.0
         scene.cycles.samples, scene.cycles.use_denoising = max(samples, 1), False
@@ -90,7 +95,8 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
             denoise(scene.cycles, "FAST")
             _stop_early(scene.cycles)
         light = yield from rendering(scene)
-        return light[..., :3] * (paths.left * paths.used[..., None])
+        light[..., :3] *= paths.left
+        return light * paths.used[..., None]
 
 
 def _stop_early(cycles: bpy.types.PropertyGroup) -> None:

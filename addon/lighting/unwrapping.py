@@ -22,12 +22,12 @@ from .further_mirrors import FurtherMirrors
 from .light_paths import LightPaths
 from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
-BEYOND = 16.0       # sizes of the picture that a corner may lie beside it
 MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
+FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
 MOST_BOUNCES = 1 << 8
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
@@ -144,8 +144,8 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
     spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
     for one in pages:
         spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
-    # a corner beside the camera's view keeps its place, so that the part in view does not change
-    spots = np.clip(np.nan_to_num(spots), -BEYOND, 1.0 + BEYOND)
+    # corners beside the camera's view lie beside the picture: the part of their face that is seen would else be bent
+    spots = np.clip(np.nan_to_num(spots), -FARTHEST_SPOT, FARTHEST_SPOT)
     with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
     without = iter(of_points)
     return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], pages, points)
@@ -296,7 +296,7 @@ class PointBlock(Block):
         else:
             target, origin = (vectors(self.placed.mesh, name) for name in ("reflected_position", "mirror_position"))
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
-        paths.lead[row, column] = POINT_LEAD
+        paths.lead[row, column] = SEEN_LEAD if seen else POINT_LEAD
 
     def _texels(self) -> np.ndarray:
         row, column = np.divmod(np.arange(self.count), self.size[0])

@@ -121,16 +121,26 @@ def _inner(mask: np.ndarray) -> np.ndarray:
 
 
 def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) -> None:
-    """Add vertices (n, 3) and triangles (m, 3) that number them."""
-    vertices = len(mesh.vertices)
+    """Add vertices (n, 3), triangles (m, 3) that number them, and their edges; earlier edges keep their marks.
+
+    Blender's own search for edges would remove these marks.
+    """
+    vertices, edges, loops = len(mesh.vertices), len(mesh.edges), len(mesh.loops)
+    sides = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2).reshape(-1, 2), axis=1)
+    ends, side = np.unique(sides, axis=0, return_inverse=True)
     mesh.vertices.add(len(positions))
+    mesh.edges.add(len(ends))
     mesh.loops.add(corners.size)
-    loops = len(mesh.loops)
     mesh.polygons.add(len(corners))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, loops, 3, dtype=np.int32))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, loops + corners.size, 3, dtype=np.int32))
     set_tail(mesh, "position", vertices, positions)
-    set_tail(mesh, ".corner_vert", loops - corners.size, vertices + corners)
-    mesh.update(calc_edges=True)
+    set_tail(mesh, ".corner_vert", loops, vertices + corners)
+    set_tail(mesh, ".corner_edge", loops, edges + side)
+    all_ends = np.empty((edges + len(ends), 2), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", all_ends.reshape(-1))
+    all_ends[edges:] = vertices + ends
+    mesh.edges.foreach_set("vertices", all_ends.reshape(-1))
+    mesh.update()
 
 
 def set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:

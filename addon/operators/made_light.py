@@ -14,9 +14,13 @@ from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     FROM_MIRROR,
     FurtherMirrors,
+    LightPaths,
     Placed,
+    Unwrapped,
+    alone,
     can_be_lit,
     forget_light,
+    is_cut_out,
     is_plain,
     lay_out,
     light_record,
@@ -27,19 +31,23 @@ from ..lighting import (
     prepared,
     remember,
     render_paths,
+    show_as_cut_out,
     show_light,
+    straight,
     unwrap,
     write_colours,
 )
 from ..mirror_part import LaterMirrors, Surroundings
-from ..reading import has_fog, known_results, mirrors_of
-from ..reading.materials import reflecting_materials, surface_shaders
+from ..reading import has_fog, known_results, mirrors_of, vectors
+from ..reading.materials import is_opaque, reflecting_materials, surface_shaders
 from ..rendering import shown_while
+from ..writing import DISC_SCALE
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
 RIM = 4                 # texels around faces that go on as the faces do
+SMALL = 0.05            # of a disc's size
 MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
@@ -61,18 +69,13 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
     yield 0.04, "Reading the reflection"
     unwrapped = unwrap(list(placed.values()), view, dense)
-    shown = known_results(context.scene, context.view_layer)
-    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
-    if not paths.used.any():
-        raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     fog = has_fog(context.scene)
-    if fog:
-        # it counts from the mirror on
-        paths = replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR))
+    paths = _paths(context, lit, unwrapped, fog)
     with path_scene(context) as scene:
         light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
-    image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
-    export_image = bpy.data.images.new(f"{NAME} Export", 1, 1)
+    image = yield from part(new_image(NAME, light[..., :3], whole), 0.7, 0.05)
+    clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
+    export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
     whole.undo(bpy.data.batch_remove, [export_image])
     materials: dict = {}
     # paths from the mirror on meet lamps themselves
@@ -88,14 +91,21 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             lay_out(mesh, result, view, spots[result.data], materials[key])
     matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
     with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
-        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte)
+        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte, by_mirror=False)
         seen = yield from shown_while(steps, 0.8, RENDERING)
+    if not clear:
+        seen[..., 3] = 1.0
     yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
+    if is_cut_out(seen[..., 3][paths_seen.used]):
+        for material in materials.values():
+            show_as_cut_out(material)
+    seen = straight(seen)
     for mesh, own in placed.items():
         write_colours(own.mesh, spots[mesh], seen)
     if flat:
-        image = yield from part(new_image(NAME, seen, whole), 0.99, 0.01)
-        plain = new_material(NAME, image, image, [None], Surroundings(), whole)
+        image = yield from part(new_image(NAME, seen if clear else seen[..., :3], whole), 0.99, 0.01)
+        behind = Surroundings(behind=not all(result.reflection_mesh.window for result in lit))
+        plain = new_material(NAME, image, image, [None], behind, whole)
         for material in materials.values():
             whole.after(forget_light, material)
         materials = dict.fromkeys(materials, plain)
@@ -110,6 +120,15 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     return show
 
 
+def _paths(context: bpy.types.Context, lit: list, unwrapped: Unwrapped, fog: bool) -> LightPaths:
+    """Return the light path of each texel; with `fog` it begins at the mirror."""
+    shown = known_results(context.scene, context.view_layer)
+    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
+    if not paths.used.any():
+        raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
+    return replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR)) if fog else paths
+
+
 def _check(lit: list) -> None:
     for result in lit:
         if not can_be_lit(result):
@@ -119,26 +138,53 @@ def _check(lit: list) -> None:
 
 @contextmanager
 def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict, matte: bool) -> Iterator[None]:
-    """Give a temporary scene copies of reflections with their light, which glossy rays alone meet; they are all that is
-    in it if nothing about them is `matte`."""
-    copies, everything = [], scene.collection
-    if not matte:
+    """Give a temporary scene copies of reflections with their light. The camera sees nothing else; nothing else is in
+    the scene if nothing about them is `matte`."""
+    everything, made = scene.collection, []
+    if matte:
+        rest = bpy.data.collections.new(NAME)
+        made.append(rest)
+        for obj in everything.objects:
+            rest.objects.link(obj)
+        everything.children.link(rest)
+        _hide_from_camera(scene.view_layers[0].layer_collection)
+    else:
         scene.world = None
-        for kind in (everything.children, everything.objects):
-            for one in list(kind):
-                kind.unlink(one)
+        for one in list(everything.children):
+            everything.children.unlink(one)
+    for obj in list(everything.objects):
+        everything.objects.unlink(obj)
     try:
+        shown = {key: alone(material) for key, material in materials.items()}
+        made += shown.values()
         for result in lit:
             copy = result.copy()
-            copies.append(copy)
+            made.append(copy)
             copy.data = placed[result.data].mesh
+            if DISC_SCALE in copy.data.attributes:
+                copy.data = _with_small_discs(copy.data)
+                made.append(copy.data)
             for slot in copy.material_slots:
-                slot.link, slot.material = "OBJECT", materials[result.reflection_mesh.mirror, result.data]
-            copy.visible_camera, copy.visible_glossy, copy.hide_render = False, True, False
+                slot.link, slot.material = "OBJECT", shown[result.reflection_mesh.mirror, result.data]
+            copy.visible_camera, copy.hide_render = True, False
             everything.objects.link(copy)
         yield
     finally:
-        bpy.data.batch_remove(still_there(copies))
+        bpy.data.batch_remove(still_there(made))
+
+
+def _with_small_discs(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
+    """Return a copy of a mesh of points whose discs do not hide the middles of others."""
+    copy = mesh.copy()
+    scales = vectors(copy, DISC_SCALE)
+    copy.attributes[DISC_SCALE].data.foreach_set("vector", (SMALL * scales).astype(np.float32).reshape(-1))
+    return copy
+
+
+def _hide_from_camera(layer: bpy.types.LayerCollection) -> None:
+    for child in layer.children:
+        child.indirect_only = True
+        _hide_from_camera(child)
 
 
 def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:

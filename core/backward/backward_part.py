@@ -85,7 +85,8 @@ class BackwardPart:
     @cached_property
     def tracer(self) -> PathTracer:
         surface = self.met.surface if self.mirror is self.met.mirrors else MirrorSurface(self.mirror)
-        return PathTracer(self.view, surface, self.met)
+        used = self.mirror.positions[self.mirror.used]
+        return PathTracer(self.view, surface, self.met, float(np.ptp(used, axis=0).max()))
 
     @cached_property
     def tree(self) -> SceneTree:
@@ -233,7 +234,6 @@ class BackwardPart:
                 & (inner >= 0) for row in (-1, 0, 1) for column in (-1, 0, 1)}
         lattice = lambda row, column: at[1 + row:at.shape[0] - 1 + row, 1 + column:at.shape[1] - 1 + column]  # noqa: E731
         slide = 0.5 * SUNK * self.met.slide * GAP
-        size = np.ptp(paths.place, axis=1).max(initial=0.0)
         for first, last in (((0, -1), (0, 1)), ((-1, 0), (1, 0)), ((-1, -1), (1, 1)), ((-1, 1), (1, -1))):
             breathe()
             some = np.nonzero(same[first] & same[last])
@@ -244,7 +244,7 @@ class BackwardPart:
             place = [paths.place[:, number] for number in (one, middle, other)]
             ahead = view.directions(place[1].T).T
             sunk = dot(0.5 * (place[0] + place[2]) - place[1], ahead)
-            room = slide * (size if view.orthographic else dot(ahead, ahead))
+            room = slide * (self.tracer.size if view.orthographic else dot(ahead, ahead))
             bad = np.maximum(away / np.maximum(self.tolerance * motion / self.lattice.step, 1e-300), sunk / room)
             np.maximum.at(rough, (some[0] + 1, some[1] + 1), bad)
         return rough

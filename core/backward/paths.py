@@ -53,11 +53,13 @@ class PathTracer:
     view : View
     surface : MirrorSurface, of the first mirror
     met : SceneAndMirrors, triangles that rays may hit
+    size : float, extent of the first mirror, which layers before an orthographic eye are measured by
     """
 
     view: View
     surface: MirrorSurface
     met: SceneAndMirrors
+    size: float
 
     def traced(self, face: np.ndarray, place: np.ndarray, depth: int, enough: float = 0.0
                ) -> tuple[Paths, np.ndarray]:
@@ -116,7 +118,7 @@ class PathTracer:
         """
         back = -self.view.directions(place.T).T
         away = norm(back)
-        size = np.full(len(away), np.ptp(place, axis=1).max()) if self.view.orthographic else away
+        size = np.full(len(away), self.size) if self.view.orthographic else away
         return self.met.hidden_within(place, back / away, self.met.slide * (GAP + DEPTH) * size, many=True)
 
 

@@ -12,10 +12,10 @@ from .mesh_arrays import (
     vertices_written,
 )
 from .mesh_edges import Edges
-from .point_arrays import point_arrays
+from .point_arrays import DISC_SCALE, point_arrays
 from .result_size import mesh_bytes, size_text
 from .shown_attributes import OF_METHOD
 
-__all__ = ["ARRIVAL", "Attribute", "Edges", "LATER_COSINE", "LATER_MATERIAL", "Lines", "MOST_UV_MAPS", "MeshArrays",
-           "NORMAL", "OF_METHOD", "UV_MAP", "images_of", "in_order", "light_layer", "light_points", "mesh_arrays",
-           "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]
+__all__ = ["ARRIVAL", "Attribute", "DISC_SCALE", "Edges", "LATER_COSINE", "LATER_MATERIAL", "Lines", "MOST_UV_MAPS",
+           "MeshArrays", "NORMAL", "OF_METHOD", "UV_MAP", "images_of", "in_order", "light_layer", "light_points",
+           "mesh_arrays", "mesh_bytes", "point_arrays", "shown_layers", "size_text", "vertices_written"]

@@ -36,7 +36,7 @@ def test_they_are_added_when_the_setting_says_so(blank, wanted, generated, lit):
     ball_under_the_sky(blank)
     result = parts.generate(world_faces=wanted)
     assert shows_world(result) == generated
-    bpy.ops.reflection_mesh.light(samples=1, every=True)
+    bpy.ops.reflection_mesh.light(samples=1)
     assert shows_world(result) == lit
     # generated again, they come once
     faces = len(parts.generate(world_faces=wanted).data.polygons)

@@ -1,7 +1,9 @@
 """Pictures of glTF files by three.js in a headless Chromium: an engine that knows nothing of Blender."""
 from __future__ import annotations
 
+import json
 import shutil
+import struct
 import subprocess
 import threading
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -66,6 +68,13 @@ def shown(path: Path, size: tuple[int, int], folder: Path) -> np.ndarray:
     picture = folder / "three.png"
     picture.write_bytes(server.picture)
     return _halved(_read(picture))
+
+
+def materials(path: Path) -> dict[str, dict]:
+    """Return the materials in a binary glTF file by their names (Khronos glTF 2.0, 4.4)."""
+    whole = path.read_bytes()
+    length, = struct.unpack_from("<I", whole, 12)
+    return {one["name"]: one for one in json.loads(whole[20:20 + length])["materials"]}
 
 
 def _read(path: Path) -> np.ndarray:
