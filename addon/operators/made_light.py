@@ -10,10 +10,12 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
+from ..freshness import light_difference, lit_with, why_light_differs
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     FROM_MIRROR,
     FurtherMirrors,
+    KeptLight,
     Placed,
     can_be_lit,
     forget_light,
@@ -35,6 +37,7 @@ from ..mirror_part import LaterMirrors, Surroundings
 from ..reading import has_fog, known_results, mirrors_of
 from ..reading.materials import reflecting_materials, surface_shaders
 from ..rendering import shown_while
+from ..writing import images_of
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
@@ -69,8 +72,11 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     if fog:
         # it counts from the mirror on
         paths = replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR))
+    yield 0.08, "Reading the reflection"
+    kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
     with path_scene(context) as scene:
-        light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
+        steps = render_paths(scene, kept.missing(paths).grown(RIM), samples // dense**2, True)
+        light = kept.completed((yield from shown_while(steps, 0.1, RENDERING)), paths, RIM)
     image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1)
     whole.undo(bpy.data.batch_remove, [export_image])
@@ -100,7 +106,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             whole.after(forget_light, material)
         materials = dict.fromkeys(materials, plain)
     else:
-        remember(image, paths)
+        remember(image, paths, kept.age)
     told = light_record(view, unwrapped, dense)
 
     def show() -> None:
@@ -108,6 +114,15 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
+
+
+def _earlier_images(context: bpy.types.Context, lit: list, view: View, samples: int) -> list[bpy.types.Image]:
+    """Return pictures of light that these show, made with as many samples, since which the view alone has changed."""
+    return list(dict.fromkeys(
+        image for result in lit
+        if lit_with(result).get("samples", 0) >= samples and why_light_differs(context, result)
+        and not light_difference(context, view, result, [], same_view=False, same_mirror=True)
+        for image in images_of(result.reflection_mesh.light_material)))
 
 
 def _check(lit: list) -> None:
