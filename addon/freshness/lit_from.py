@@ -69,10 +69,11 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 
 def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list,
-                     same_view: bool = True) -> str:
+                     same_view: bool = True, same_mirror: bool = False) -> str:
     """Return what `why_light_differs` does, for a view and the sources that the result is to show.
 
-    Without `same_view`, the view, the result's size and the mirror may be others than those it was lit for.
+    Without `same_view`, the view, the result's size and, without `same_mirror`, the mirror may be others than those it
+    was lit for.
     """
     made, record = _read(result), result.reflection_mesh
     if not made:
@@ -92,7 +93,7 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
         elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
             mirrors |= {*mirrors_of(obj)}
     now = _inputs(context, result, sources, mirrors - {None})
-    left_out = set() if same_view else OF_A_VIEW
+    left_out = set() if same_view else OF_A_VIEW - ({"mirror"} if same_mirror else set())
     return next((sentence for name, sentence in DIFFERENT.items()
                  if name in now and name not in left_out and made.get(name, now[name]) != now[name]), "")
 

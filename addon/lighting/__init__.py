@@ -1,6 +1,7 @@
 """Light on reflections: Cycles shades what they show, along the paths on which their mirrors see it."""
 from .export_image import is_cut_out, new_export_image, straight
 from .further_mirrors import FurtherMirrors
+from .kept_light import KeptLight
 from .known_texels import remember
 from .light_material import alone, new_image, new_material, show_as_cut_out
 from .light_paths import LightPaths
@@ -24,8 +25,8 @@ from .unwrapping import FROM_MIRROR, Placed, Unwrapped, unwrap
 from .world_faces import WORLD
 from .world_material import show_world
 
-__all__ = ["FROM_MIRROR", "FurtherMirrors", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone", "can_be_lit",
-           "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light", "lacks_mattes",
-           "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image", "new_material",
-           "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light", "show_previews",
-           "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]
+__all__ = ["FROM_MIRROR", "FurtherMirrors", "KeptLight", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone",
+           "can_be_lit", "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light",
+           "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image",
+           "new_material", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light",
+           "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]

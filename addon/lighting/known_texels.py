@@ -13,6 +13,7 @@ from mathutils.kdtree import KDTree
 
 from .light_paths import LightPaths
 
+MOST_PATHS = 4_000_000  # texels of a picture, whose paths take 69 bytes each
 MOST = 100_000      # texels that are remembered of a picture; between them places are found by their linear change
 NEAR = 4.0          # texels between those remembered, from which on a point is not in the picture
 APART = 8.0         # times the length that a face's side should have in texels, from which on it spans two parts
@@ -21,20 +22,23 @@ FEWEST = 0.5        # share of the faces that must be found
 
 class Texels(NamedTuple):
     """Some texels of a picture: a tree of the points that they show, their places (n, 2) from 0 to 1, how points change
-    along a row and along a column (n, 2, 3), how many texels stand for one, and the picture's size."""
+    along a row and along a column (n, 2, 3), how many texels stand for one, the picture's size; all of its paths, if
+    they are no more than `MOST_PATHS`, and how often the light of each has been copied (h, w)."""
 
     tree: KDTree
     spots: np.ndarray
     changes: np.ndarray
     stride: float
     size: np.ndarray
+    paths: LightPaths | None
+    age: np.ndarray
 
 
 _known: dict[int, Texels] = {}
 
 
-def remember(image: bpy.types.Image, paths: LightPaths) -> None:
-    """Remember the points that the texels of a picture of light show."""
+def remember(image: bpy.types.Image, paths: LightPaths, age: np.ndarray) -> None:
+    """Remember the points that the texels of a picture of light show, and how often their light was copied."""
     row, column = np.nonzero(paths.used)
     stride = max(1, -(-len(row) // MOST))
     row, column = row[::stride], column[::stride]
@@ -46,7 +50,13 @@ def remember(image: bpy.types.Image, paths: LightPaths) -> None:
     changes = np.stack((paths.across[row, column], paths.up[row, column]), axis=1).astype(np.float64)
     for uid in set(_known) - {one.session_uid for one in bpy.data.images}:
         del _known[uid]
-    _known[image.session_uid] = Texels(tree, (np.stack((column, row), axis=1) + 0.5) / size, changes, stride, size)
+    _known[image.session_uid] = Texels(tree, (np.stack((column, row), axis=1) + 0.5) / size, changes, stride, size,
+                                       paths if paths.used.size <= MOST_PATHS else None, age)
+
+
+def known_texels(image: bpy.types.Image) -> Texels | None:
+    """Return what is remembered of a picture."""
+    return _known.get(image.session_uid)
 
 
 def found_again(image: bpy.types.Image | None, points: np.ndarray) -> np.ndarray | None:

@@ -26,6 +26,7 @@ from ..writing import (
     show_own_materials,
     unblurred_in,
 )
+from .kept_light import steady_turn
 from .known_texels import found_again
 from .needs_light import needs_light
 from .preview import MARK, forget_previews
@@ -51,7 +52,8 @@ def prepared(result: bpy.types.Object, view: View, dense: int, whole: AllOrNothi
     whole.undo(remove_new, mesh)
     record = result.reflection_mesh
     placed = Placed(mesh, np.array(place_of(result), dtype=np.float64), record.hidden_faces,
-                    record.mirror.session_uid if record.mirror else 0)
+                    record.mirror.session_uid if record.mirror else 0,
+                    tuple(steady_turn(source.object) for source in record.sources))
     if record.world_faces != "NEVER":
         add_world_faces(mesh, result, view, placed.layered)
     yield 0.0, WRITING

@@ -27,6 +27,7 @@ BESIDE, SMALL = 0.1, 0.004  # in fog: shares of a path between the mirror and th
 SEEN_BY = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
            "visible_shadow")
 EVEN = 0.5      # between whole numbers
+TILE = 8        # texels along the side of a tile; tiles without used texels are left out
 # noise threshold of Cycles' adaptive sampling from which on the denoiser does the rest, and the samples before it
 NOISE, LEAST = 0.1, 8
 
@@ -78,18 +79,19 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         camera.location = place
         size = radius * np.array((width, height)) / max(width, height)
         images = _images(paths, back)
-        portals = _portals(images, (width, height), back)
         # the camera looks down at a mirror, in which it sees the sheet above itself
-        planes = [(portals, 0.5, 1.0, "visible_glossy"), (_perfect_mirror(back), -0.5, 1.5, "visible_camera")]
-        for material, above, larger, rays in planes if by_mirror else [(portals, -0.5, 1.0, "visible_camera")]:
-            plane = _plane(scene, larger * size, place, above * radius, back)
+        tiles, portals = _tiles(paths.used), _portals(images, (width, height), back)
+        planes = [(portals, 0.5, "visible_glossy"), (_perfect_mirror(back), -0.5, "visible_camera")]
+        for material, above, rays in planes if by_mirror else [(portals, -0.5, "visible_camera")]:
+            plane = _plane(scene, tiles, size, place, above * radius, back)
             plane.data.materials.append(material)
             for name in SEEN_BY:
                 setattr(plane, name, name == rays)
         render = scene.render
-        render.film_transparent = not by_mirror
         render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
         render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+        # beside the mirror nothing is shaded
+        render.film_transparent = True
         scene.cycles.samples, scene.cycles.use_denoising = max(samples, 1), False
         if clean:
             denoise(scene.cycles, "FAST")
@@ -145,13 +147,23 @@ def _images(paths: LightPaths, back: ExitStack) -> list[bpy.types.Image]:
     return made
 
 
-def _plane(scene: bpy.types.Scene, size: np.ndarray, place: Vector, above: float, back: ExitStack) -> bpy.types.Object:
-    """Add a rectangle of that size, `above` a place, whose texels lie as the camera sees them."""
+def _tiles(used: np.ndarray) -> np.ndarray:
+    """Return the corners (n, 4, 2) of tiles that have used texels, in shares of the picture's width and height."""
+    starts = [np.arange(0, side, TILE) for side in used.shape]
+    row, column = np.nonzero(np.logical_or.reduceat(np.logical_or.reduceat(used, starts[0], axis=0), starts[1], axis=1))
+    corners = np.stack((column, row), axis=1)[:, None] + ((0, 0), (1, 0), (1, 1), (0, 1))
+    return np.minimum(corners * TILE / used.shape[::-1], 1.0)
+
+
+def _plane(scene: bpy.types.Scene, tiles: np.ndarray, size: np.ndarray, place: Vector, above: float, back: ExitStack
+           ) -> bpy.types.Object:
+    """Add tiles of a rectangle of that size, `above` a place, whose texels lie as the camera sees them."""
     mesh = bpy.data.meshes.new(NAME)
     back.callback(bpy.data.meshes.remove, mesh)
-    x, y = (0.5 * size).tolist()
-    mesh.from_pydata([(-x, -y, 0.0), (x, -y, 0.0), (x, y, 0.0), (-x, y, 0.0)], [], [(0, 1, 2, 3)])
-    mesh.uv_layers.new(name=UV).uv.foreach_set("vector", (0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0))
+    places = np.zeros((4 * len(tiles), 3))
+    places[:, :2] = ((tiles - 0.5) * size).reshape(-1, 2)
+    mesh.from_pydata(places, [], np.arange(len(places)).reshape(-1, 4))
+    mesh.uv_layers.new(name=UV).uv.foreach_set("vector", tiles.astype(np.float32).reshape(-1))
     obj = bpy.data.objects.new(NAME, mesh)
     obj.location = place + Vector((0.0, 0.0, above))
     scene.collection.objects.link(obj)

@@ -47,6 +47,7 @@ class Faces:
     displaced : (m,) bool, faces of which renders move the source: it is looked for from the mirror on
     normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
     group : (m,) int64, the same for faces of one mirror that show one source by as many mirrors
+    turn : (m,) float32, as of `LightPaths`
     """
 
     positions: np.ndarray
@@ -58,6 +59,7 @@ class Faces:
     displaced: np.ndarray
     normals: np.ndarray
     group: np.ndarray
+    turn: np.ndarray
 
     @classmethod
     def joined(cls, parts: list[Faces]) -> Faces:
@@ -66,24 +68,27 @@ class Faces:
         starts = np.cumsum([0, *(len(one.positions) for one in parts)])
         corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
         others = {name: np.concatenate([getattr(one, name) for one in parts])
-                  for name in ("positions", "images", "targets", "origins", "sky", "displaced", "normals", "group")}
+                  for name in ("positions", "images", "targets", "origins", "sky", "displaced", "normals", "group",
+                               "turn")}
         return cls(corners=corners, **others)
 
     @classmethod
     def none(cls) -> Faces:
         none, ends = np.zeros((0, 3)), np.zeros((0, 3, 3))
         return cls(none, none, none.astype(np.int64), ends, ends, *np.zeros((2, 0), dtype=bool), ends,
-                   np.zeros(0, dtype=np.int64))
+                   np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.float32))
 
 
 class Placed(NamedTuple):
     """A reflection's mesh, the matrix (4, 4) that places it where it was generated, whether faces that others hide need
-    light of their own, and the number of its mirror: copies of a reflection have the same place in the picture."""
+    light of their own, the number of its mirror (copies of a reflection have the same place in the picture), and the
+    turn that each of its sources allows, as of `LightPaths`."""
 
     mesh: bpy.types.Mesh
     matrix: np.ndarray
     layered: bool
     mirror: int
+    turns: tuple[float, ...]
 
     @property
     def positions(self) -> np.ndarray:
@@ -172,7 +177,9 @@ def faces_of(placed: Placed, view: View) -> Faces:
     slot = np.zeros(len(corners), dtype=np.int32)
     mesh.polygons.foreach_get("material_index", slot)
     displaced = displaced[np.minimum(slot, len(displaced) - 1)] & ~sky
-    return Faces(positions, images, corners, target, origin, sky, displaced, normals, group)
+    # the last one is that of the world; where renders move the source its points are not known
+    turn = np.array((*placed.turns, 0.0), dtype=np.float32)[source] * ~displaced
+    return Faces(positions, images, corners, target, origin, sky, displaced, normals, group, turn)
 
 
 @dataclass
@@ -244,7 +251,7 @@ class Page:
         lead = texel / np.maximum(np.linalg.norm(target - origin, axis=1), 1e-30)
         shift = self.shifts[self.block[own]]
         spot = row + shift[:, 1], column + shift[:, 0]
-        paths.used[spot], paths.left[spot] = True, left
+        paths.used[spot], paths.left[spot], paths.turn[spot] = True, left, faces.turn[face]
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
         lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
         paths.lead[spot] = SEEN_LEAD if seen else lead

@@ -10,10 +10,12 @@ import numpy as np
 
 from ...core import ReflectionError, View
 from ..faults import AllOrNothing, Steps, part, still_there
+from ..freshness import light_difference, lit_with, why_light_differs
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
     FROM_MIRROR,
     FurtherMirrors,
+    KeptLight,
     LightPaths,
     Placed,
     Unwrapped,
@@ -41,7 +43,7 @@ from ..mirror_part import LaterMirrors, Surroundings
 from ..reading import has_fog, known_results, mirrors_of, vectors
 from ..reading.materials import is_opaque, reflecting_materials, surface_shaders
 from ..rendering import shown_while
-from ..writing import DISC_SCALE
+from ..writing import DISC_SCALE, images_of
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
@@ -71,9 +73,13 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     unwrapped = unwrap(list(placed.values()), view, dense)
     fog = has_fog(context.scene)
     paths = _paths(context, lit, unwrapped, fog)
+    yield 0.08, "Reading the reflection"
+    kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
     with path_scene(context) as scene:
-        light = yield from shown_while(render_paths(scene, paths.grown(RIM), samples // dense**2, True), 0.1, RENDERING)
-    image = yield from part(new_image(NAME, light[..., :3], whole), 0.7, 0.05)
+        steps = render_paths(scene, kept.missing(paths).grown(RIM), samples // dense**2, True)
+        light = yield from shown_while(steps, 0.1, RENDERING)
+    light = kept.completed(light[..., :3], paths, RIM)
+    image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
     clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
     whole.undo(bpy.data.batch_remove, [export_image])
@@ -103,14 +109,10 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     for mesh, own in placed.items():
         write_colours(own.mesh, spots[mesh], seen)
     if flat:
-        image = yield from part(new_image(NAME, seen if clear else seen[..., :3], whole), 0.99, 0.01)
-        behind = Surroundings(behind=not all(result.reflection_mesh.window for result in lit))
-        plain = new_material(NAME, image, image, [None], behind, whole)
-        for material in materials.values():
-            whole.after(forget_light, material)
+        plain = yield from _plain_material(lit, seen if clear else seen[..., :3], materials, whole)
         materials = dict.fromkeys(materials, plain)
     else:
-        remember(image, paths)
+        remember(image, paths, kept.age)
     told = light_record(view, unwrapped, dense)
 
     def show() -> None:
@@ -120,6 +122,15 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     return show
 
 
+def _plain_material(lit: list, seen: np.ndarray, materials: dict, whole: AllOrNothing) -> Steps[bpy.types.Material]:
+    """Return a material that shows the finished picture (h, w, 3 or 4) alone, in place of `materials`."""
+    image = yield from part(new_image(NAME, seen, whole), 0.99, 0.01)
+    behind = Surroundings(behind=not all(result.reflection_mesh.window for result in lit))
+    for material in materials.values():
+        whole.after(forget_light, material)
+    return new_material(NAME, image, image, [None], behind, whole)
+
+
 def _paths(context: bpy.types.Context, lit: list, unwrapped: Unwrapped, fog: bool) -> LightPaths:
     """Return the light path of each texel; with `fog` it begins at the mirror."""
     shown = known_results(context.scene, context.view_layer)
@@ -127,6 +138,15 @@ def _paths(context: bpy.types.Context, lit: list, unwrapped: Unwrapped, fog: boo
     if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
     return replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR)) if fog else paths
+
+
+def _earlier_images(context: bpy.types.Context, lit: list, view: View, samples: int) -> list[bpy.types.Image]:
+    """Return pictures of light that these show, made with as many samples, since which the view alone has changed."""
+    return list(dict.fromkeys(
+        image for result in lit
+        if lit_with(result).get("samples", 0) >= samples and why_light_differs(context, result)
+        and not light_difference(context, view, result, [], same_view=False, same_mirror=True)
+        for image in images_of(result.reflection_mesh.light_material)))
 
 
 def _check(lit: list) -> None:

@@ -33,6 +33,7 @@ from .mirror_materials import (
 from .opaque_materials import fog_of, is_clear, is_colourless, is_fog, is_opaque
 from .own_light import glows, outshines_paper, sends_light
 from .shader_graph import MIXING, Groups, fed_by, outermost, surface_shader, surface_shaders
+from .steady_light import steady_angle
 from .transparency import transparency
 
 __all__ = ["FULL_METALLIC", "Groups", "MIRRORS", "MIXING", "SHARP_ROUGHNESS", "all_fog", "all_materials_of",
@@ -41,5 +42,5 @@ __all__ = ["FULL_METALLIC", "Groups", "MIRRORS", "MIXING", "SHARP_ROUGHNESS", "a
            "is_colourless", "is_displaced", "is_exact", "is_fog", "is_metal", "is_mirror", "is_opaque", "is_sharp",
            "least_roughness", "look_again", "materials_of", "materials_on_faces", "materials_shown",
            "mirror_roughness", "mirrors_in_part", "one_output", "outermost", "outshines_paper", "own_materials",
-           "reflecting_materials", "sends_light", "shines", "shown_output", "surface_shader", "surface_shaders",
-           "transparency", "upright", "which_reflect"]
+           "reflecting_materials", "sends_light", "shines", "shown_output", "steady_angle", "surface_shader",
+           "surface_shaders", "transparency", "upright", "which_reflect"]
