@@ -37,7 +37,7 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
     camera, column = np.zeros((2, 0), dtype=np.int64)
     for level in range(LEVELS + 1):
         parts.append(candidates)
-        # of each pair so far, the camera's number now, -1 where it has been split
+        # current camera index of every pair so far, -1 if that camera has been split
         camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
         mirror = met.are_mirrors(candidates)
         bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING_SHARE, 1.0))
@@ -60,14 +60,23 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
 
 
 def _crowded(candidates: Candidates, mirror: np.ndarray) -> np.ndarray:
-    """Which cameras (n,) hold too many outlines of mirrors, which are those (p,) of the candidates."""
+    """Return True for cameras (n,) with too many outlines of mirrors; `mirror` (p,) is True for mirror candidates."""
     outlines = np.where(mirror, candidates.outlines.sum(axis=0), 0)
     return np.bincount(candidates.camera, outlines, minlength=len(candidates.cameras)) > CROWD
 
 
 def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses more than the
-    `tolerance` (p,) of its candidate, in pixels; and those that are long enough to be split."""
+    """Find edges of the cameras, from each corner to the next, along which a straight outline misses the true one.
+
+    Parameters
+    ----------
+    tolerance : (p,) float64, pixels, of each candidate
+
+    Returns
+    -------
+    bent : (n, 3) bool, True where some outline misses by more than its tolerance
+    long : (n, 3) bool, True for edges of those cameras that are long enough to be split
+    """
     cameras, some = candidates.cameras, np.flatnonzero(candidates.outlines.any(axis=0))
     asked, camera = distinct(candidates.camera[some])
     pixels = cameras.view.pixels(cameras.places[:, cameras.corners[asked].ravel()].T).reshape(-1, 3, 2)
@@ -85,7 +94,7 @@ def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarr
 
 
 def _worth_refining(cameras: Cameras, bent: np.ndarray) -> np.ndarray:
-    """(n, 1): which cameras with edges that are `bent` (n, 3) are worth refining beyond the horizon."""
+    """Return True (n, 1) for cameras with `bent` (n, 3) edges that are no slivers beyond the horizon."""
     asked = bent.any(axis=1)
     worth = asked.copy()
     worth[asked] = ~beyond_horizon(cameras.select(asked))

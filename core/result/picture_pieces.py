@@ -157,13 +157,16 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
 
 
 def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:
-    """Which triangles (k,) the picture may show; those that are on both sides of the eye have no place in it."""
+    """Return True for triangles with corners at `pixels` (k, 3, 2) that may reach into the picture.
+
+    Triangles with a corner behind the eye have no finite pixels and are outside.
+    """
     return (np.isfinite(pixels).all(axis=(1, 2)) & (pixels.max(axis=1) > 0.0).all(axis=1)
             & (pixels.min(axis=1) < view.resolution).all(axis=1))
 
 
 def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
-    """Places (..., 2) in the picture of homogeneous ones (..., 4), none of what is not before the eye."""
+    """Convert clip coordinates (..., 4) to pixels (..., 2); NaN for points that are not before the eye."""
     found = np.empty((*clip.shape[:-1], 2))
     for part in portions(len(clip), AT_ONCE):
         depth = np.where(clip[part, ..., 3:] > 0.0, clip[part, ..., 3:], np.nan)
@@ -179,7 +182,13 @@ def _straying(depth: np.ndarray, pixels: np.ndarray) -> np.ndarray:
 
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
-    """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
+    """Interpolate values at `corners` (k, 3, c) of triangles to the corners of their parts.
+
+    Parameters
+    ----------
+    parent : (n,) int64, triangle of each part
+    local : (n, 3) int64, its corners: 0 to 2 for the triangle's corners, 3 to 5 for the middles of its edges
+    """
     found = np.empty((*local.shape, corners.shape[2]))
     for part in portions(len(parent), AT_ONCE):
         own = corners[parent[part]]

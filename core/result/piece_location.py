@@ -6,8 +6,8 @@ import numpy as np
 from ..geometry import between, distinct, in_order, ranges
 from ..support import breathe
 
-TOUCHING = 1e-9     # of a barycentric coordinate: what a point on an edge may be off by
-FLAT = 1e-15        # of a triangle's area: what is smaller has none but by rounding, and holds nothing
+TOUCHING = 1e-9     # tolerance of barycentric coordinates for points on an edge
+FLAT = 1e-15        # share of a triangle's area: smaller pieces are degenerate and contain no point
 
 
 def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray
@@ -31,7 +31,10 @@ def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np
 
 
 def _held(corners: np.ndarray, area: np.ndarray, piece: np.ndarray, spot: np.ndarray) -> np.ndarray:
-    """Which spots (2, n) lie in the pieces (n,) of `corners` (k, 3, 2), whose doubled areas are `area` (k,)."""
+    """Return True for each `spot` (2, n) that lies in its `piece` (n,).
+
+    The pieces have `corners` (k, 3, 2) and doubled areas `area` (k,).
+    """
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, corner].T for corner in range(3))
     breathe()
     x, y = spot[0] - x0[piece], spot[1] - y0[piece]

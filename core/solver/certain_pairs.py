@@ -129,7 +129,7 @@ def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
 
 
 def _ordinary(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Which lengths (n,), of places or of velocities, are neither too long nor too short nor too unlike."""
+    """Return True where two lengths (n,), of places or of velocities, are in range and of similar size."""
     longest, shortest = np.maximum(one, other), np.minimum(one, other)
     return (longest >= 1.0 / _LONGEST) & (longest <= _LONGEST) & (longest <= _UNLIKE * shortest)
 

@@ -1,4 +1,4 @@
-"""How surely roots are known, and which of them are one as far as anyone can know."""
+"""Error bounds of roots, and merging of roots that rounding cannot tell apart."""
 from __future__ import annotations
 
 import numpy as np
@@ -32,8 +32,10 @@ def root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
 
 
 def shift(c: np.ndarray, level: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """How far an extremum at x may move where the slope f' is off by no more than its bound D (`level`): D / |f''|, and
-    where that vanishes sqrt(D / |3 c3|)."""
+    """Bound the displacement (n,) of an extremum at x (n,) due to an error of the slope f' of at most D (`level`).
+
+    It is D / |f''|, or sqrt(D / |3 c3|) if f'' vanishes.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.fmin(level / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(level / np.abs(3.0 * c[3])))
 

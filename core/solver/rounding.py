@@ -1,4 +1,4 @@
-"""What rounding does to the value of a cubic: bounds on its error, and on that of its slope."""
+"""Bounds on the rounding errors of a cubic's value and of its slope."""
 from __future__ import annotations
 
 import numpy as np
