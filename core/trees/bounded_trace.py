@@ -17,13 +17,13 @@ VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be fo
 
 @dataclass(frozen=True)
 class Bound:
-    """What may be looked for.
+    """Limits of a search for pairs of cones and triangles.
 
     Attributes
     ----------
-    most : int, pairs of cones (n) and triangles
-    worth : (n,) float64, of cones that meet too much, those are given up first that meet the most for their worth
-    enough : (n,) float64, optional, triangles, to be tested at a time, from which on a cone is full
+    most : int, largest number of pairs of cones (n) and triangles
+    worth : (n,) float64, if there are too many pairs, cones with the most triangles for their worth are given up first
+    enough : (n,) float64, optional, number of triangles tested at a time from which on a cone is full
     """
 
     most: int
@@ -34,7 +34,7 @@ class Bound:
         return Bound(self.most, self.worth[chosen], None if self.enough is None else self.enough[chosen])
 
     def beside(self, found: int) -> Bound:
-        """The bound where so many pairs are known."""
+        """Return the bound that is left after `found` pairs."""
         return Bound(max(self.most - found, 0), self.worth, self.enough)
 
 
@@ -102,7 +102,7 @@ def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
         breathe()
         visited += more
         if visited > visits and len(cone):
-            # what lies in the shares still to come is given up whole, with the rest of this one
+            # give up all cones of the shares still to come, and the rest of this one
             leave(np.arange(cone.min() // CONES_AT_ONCE * CONES_AT_ONCE, len(worth)))
         if asked is not None and len(cone):
             kept = asked(cone, triangle)

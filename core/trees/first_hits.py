@@ -115,7 +115,10 @@ class _Trace:
             stack.extend(batch for batch in batches if len(batch[0]))
 
     def _enter(self, ray: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """Where the rays enter the boxes of the nodes, infinite where they do not before the nearest hit so far."""
+        """Return the distance at which each `ray` (n,) enters the box of its `node` (n,).
+
+        It is infinite if the ray misses the box, or enters it behind its nearest hit so far.
+        """
         self.nodes += len(ray)
         enter, leave = np.zeros(len(ray)), self.nearest[ray]
         for low, high, inverse, shift in zip(self.tree.low, self.tree.high, self.inverse, self.shift):

@@ -1,4 +1,4 @@
-"""How large a camera can show a small thing at most: a bound on magnification from the camera's own rays.
+"""Upper bound on a camera's magnification of small objects, from the camera's own rays.
 
 At the distance s a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of it moves by
 A(s) = A0 + s A1 across the rays, both constant in a camera, so that a thing of size r has an image of at most

@@ -17,22 +17,22 @@ from .shafts import Shafts
 FIRST_LEVEL = 4
 STRIDE = 2
 CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 16
-CURVE_BITS = 21  # of each coordinate: three of them fit one number
+CURVE_BITS = 21  # bits of each coordinate: three coordinates fit one integer
 _SPREADING = ((32, 0x1f00000000ffff), (16, 0x1f0000ff0000ff), (8, 0x100f00f00f00f00f), (4, 0x10c30c30c30c30c3),
               (2, 0x1249249249249249))
 
 
 @dataclass(frozen=True)
 class NodeTree:
-    """What triangles and vertices have in common as trees.
+    """Common base of the trees of bounding spheres over triangles and over vertices.
 
     Attributes
     ----------
-    mesh : TriangleMesh, the scene in its canonical order, which all that follows names
-    given : Order, where its parts are in the mesh that was given
+    mesh : TriangleMesh, the scene in its canonical order; all indices below refer to it
+    given : Order, indices of its vertices and triangles in the mesh that was given
     depth : int, the leaves are the 2**depth nodes of the last level
     spheres : list of (4, 2**level) float64
-        Centre and radius around what each node of each level holds; a radius of -inf where that is nothing.
+        Centre and radius of the bounding sphere of each node of each level; the radius of an empty node is -inf.
     leaf_start : (2**depth + 1,) int64, leaf i holds order[leaf_start[i]:leaf_start[i + 1]]
     order : (n,) int64, triangles or vertices, leaf after leaf; triangles without an area are left out
     """
@@ -49,9 +49,18 @@ class NodeTree:
 
     def descended(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None = None
                   ) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
-        """Cones and leaves that touch, and how many nodes were tested for it, in shares that fit the memory. A cone
-        that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
-        asked with (level, cone, node), says so."""
+        """Find pairs of cones (n) and leaves that touch, in shares that fit the memory.
+
+        Parameters
+        ----------
+        wanted : (n,) bool, a cone descends only while its entry is True; the caller may change it between shares
+        resting : callable, optional, returns True (p,) for pairs (level, cone, node) that are not to descend further
+
+        Yields
+        ------
+        cone, leaf : (p,) int64
+        visited : int, number of nodes tested
+        """
         level, first = self.top()
         for part in portions(len(cones), CONES_AT_ONCE):
             cone = np.arange(part.start, part.stop)
@@ -61,8 +70,10 @@ class NodeTree:
 
     def _step(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None,
               waiting: list) -> tuple[np.ndarray, np.ndarray, int]:
-        """One level of the tree for the cones and nodes that have waited least; what comes of them waits in its turn,
-        unless they are leaves."""
+        """Descend one level with the pairs of cones and nodes pushed last to the stack `waiting`.
+
+        Push the pairs of the next level, or return those of leaves, as `descended` does.
+        """
         level, cone, node = waiting.pop()
         sphere, visited = self.spheres[level], len(cone)
         touching = wanted[cone] & cones.touch(cone, columns(sphere[:3], node), columns(sphere[3], node))
@@ -84,19 +95,20 @@ class NodeTree:
         return level, np.arange(2**level)
 
     def below(self, level: int, node: np.ndarray) -> tuple[int, np.ndarray, np.ndarray]:
-        """The level to which a descent goes on from nodes (n,), what they hold there, and which of the n each is of."""
+        """Return the next level of a descent from nodes `node` (n,), their descendants there, and the index of each's
+        ancestor in `node`."""
         step = min(STRIDE, self.depth - level)
         fan = np.arange(2**step)
         return level + step, (node[:, None] * len(fan) + fan).ravel(), np.repeat(np.arange(len(node)), len(fan))
 
     def runs(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where in `order` what nodes hold begins and ends."""
+        """Return begin and end (n,) of the entries of `order` that nodes `node` (n,) of a level contain."""
         fan = 2 ** (self.depth - level)
         return self.leaf_start[node * fan], self.leaf_start[(node + 1) * fan]
 
 
 def depth_for(count: int, bucket: int) -> int:
-    """The depth of a complete tree with about `bucket` of so many points a leaf."""
+    """Return the depth of a complete tree over `count` points with about `bucket` points in a leaf."""
     return max(0, int(np.ceil(np.log2(max(count, 1) / bucket))))
 
 

@@ -62,7 +62,7 @@ class PointTree(VertexTree):
     @classmethod
     def build(cls, mesh: TriangleMesh) -> PointTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
-        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        # compare names: a mesh may come from another copy of this package, such as an extension's beside a checkout's
         if type(mesh).__name__ != TriangleMesh.__name__:
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
@@ -120,7 +120,7 @@ def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     vertex = mesh.triangles[areal]
     for row, part in zip(normal, area[:, areal]):
         row += np.bincount(vertex.ravel(), weights=np.repeat(part, 3), minlength=count)
-    # of several assignments to one vertex the last, the largest, stays
+    # sort by size: the last of several assignments to one vertex, the largest, stays
     order = np.argsort(side[areal])
     reach[vertex[order].ravel()] = np.repeat(side[areal][order], 3) / np.sqrt(3.0)
     return np.flatnonzero(mask(count, vertex)), unit(normal), reach

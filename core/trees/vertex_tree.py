@@ -51,14 +51,14 @@ class VertexTree(NodeTree):
         return cls(mesh, given, depth, node_spheres(points, points, start, depth), start, order, *more)
 
     def held(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices (m,) in nodes (n,), and in which of the n each is."""
+        """Return the vertices (m,) in nodes `node` (n,) of a level, and the index (m,) of the node of each."""
         begin, end = self.runs(level, node)
         entry, run = ranges(begin, end - begin)
         return self.order[entry], run
 
     def small(self, level: int, node: np.ndarray, scale: np.ndarray, least: float) -> np.ndarray:
-        """Which nodes (n,) are smaller than `least` pixels where a scene unit is `scale` (n,) pixels long."""
-        # an empty one, of radius -inf, has none
+        """Return True for nodes `node` (n,) smaller than `least` pixels; a scene unit is `scale` (n,) pixels long."""
+        # an empty node has the radius -inf and is never small
         return 2.0 * np.abs(self.spheres[level][3, node]) * scale < least
 
     def stand_ins(self, level: int, node: np.ndarray, part: np.ndarray | None = None) -> StandIns:
