@@ -60,12 +60,12 @@ class Images(ColumnArrays):
             getattr(self, field.name)[..., node] = getattr(others, field.name)
 
     def several(self, nodes: np.ndarray) -> np.ndarray:
-        """Which faces (3, f) lie over several triangles of the mirror."""
+        """Return True for faces with corners `nodes` (3, f) that lie over several triangles of the mirror."""
         one, other, third = self.member[nodes]
         return (one != other) | (other != third)
 
     def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
-        """The same images; how those of all these nodes move is worked out and kept, once for each."""
+        """Compute the derivatives `moving` of the images of `nodes` that lack them, in place, and return the images."""
         asked = np.logical_or.reduce([mask(len(self), some) for some in nodes])
         chosen = np.flatnonzero(asked & self.found & np.isnan(self.moving[0, 0]))
         _, self.moving[:, :, chosen] = changes(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])

@@ -15,7 +15,7 @@ from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
 
-ON_EDGE = 1e-6  # of a triangle: a node so near its edge lies on it, and one so near an end is the end
+ON_EDGE = 1e-6  # share of a triangle's size: a node as near to an edge lies on it, one as near to an end is the end
 SAME_IMAGE = 0.05  # pixels: ends that are farther apart are two images
 
 

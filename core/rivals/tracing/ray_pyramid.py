@@ -1,5 +1,7 @@
-"""Which of many reflected rays passes nearest to a point: a pyramid of bounding cones over a grid of rays, searched
-from the top for all points at once, by branch and bound."""
+"""Search for the reflected ray that passes nearest to a point.
+
+A pyramid of bounding cones over a grid of rays is searched from the top for all points at once, by branch and bound.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -21,8 +23,8 @@ class RayPyramid:
     places, rays : (3, n) float64
         Unit directions.
     levels : list of (10, 4**level) float64
-        Cones of each level from the top, along the rows: centre, radius, axis, half angle, whether there is any, and
-        which ray stands for it; the last level holds the grid's own rays.
+        Cones of each level from the top, along the rows: centre, radius, axis, half angle, 1 if the block has rays,
+        and the index of its representative ray; the last level holds the grid's own rays.
     """
 
     places: np.ndarray
