@@ -54,13 +54,14 @@ class FaceRefinement:
 
     def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
                maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
-        """Faces whose edges stray by less than `tolerance` pixels.
+        """Split faces until their edges deviate by less than `tolerance` pixels, up to about `maximum` faces.
 
         Returns
         -------
-        nodes, faces
-        left : (2, e) float64, the displacements estimated on the edges that stay, and the lengths of these, in pixels
-        limited : int, edges that the bound on depth or count left unsplit
+        nodes : Nodes
+        faces : Faces
+        left : (2, e) float64, estimated displacements and lengths of the edges that stay, in pixels
+        limited : int, number of edges that the bound on depth or count left unsplit
         """
         finished: list[Faces] = []
         left: list[np.ndarray] = []

@@ -23,13 +23,14 @@ CROWD = 24  # outlines of mirrors that a camera may hold: all that it sees is cu
 
 def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,
                         last: bool) -> tuple[Candidates, np.ndarray, int]:
-    """Candidates of cameras split until no outline in them misses the true one by more than `tolerance` pixels, or
-    until there are `maximum` candidates; at the `last` bounce mirrors only hide.
+    """Split cameras until no straight outline in them misses the true one by more than `tolerance` pixels.
+
+    Splitting stops at about `maximum` candidates. At the `last` bounce mirror triangles only hide others.
 
     Returns
     -------
     candidates : Candidates, the pairs that may really overlap, and that no mirror hides from the whole of their camera
-    open_ : (n,) bool, cameras too small to be split in which some outline still does
+    open_ : (n,) bool, True for cameras too small to be split in which some outline still misses by more
     limited : int, edges of cameras that the bound on depth or count left unsplit
     """
     cameras, frames = candidates.cameras, candidates.frames

@@ -176,7 +176,7 @@ def _crossings(corners: _Corners, chosen: np.ndarray):
 
 
 def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """The part of the `way` (3, n) that an offset goes along it; none of a way without a length."""
+    """Return the share (n,) of each vector `way` (3, n) that an offset covers along it; 0 for a way without length."""
     square = dot(way, way)
     return np.divide(dot(offset, way), square, out=np.zeros_like(square), where=square > 0.0)
 

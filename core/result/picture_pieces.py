@@ -63,10 +63,10 @@ class PicturePieces(ColumnArrays):
     image: np.ndarray
 
     def holding(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """Piece (n,) of the largest image that holds points of the scene; -1 where none does.
+        """Find the piece (n,) of the largest image that contains each point of the scene; -1 if there is none.
 
-        A triangle that is seen edge on is known badly there: of two pieces of one image that hold a point, that counts
-        whose part of the triangle is larger in the picture.
+        Of two pieces of one image that contain a point, the one is taken that is more magnified in the picture: places
+        on a triangle that is seen edge on are imprecise.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class PicturePieces(ColumnArrays):
 
 
 def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING) -> PicturePieces:
-    """The pieces of the scene that `mesh` shows, small enough for their places in the picture to be linear on them.
+    """Split the faces of `mesh` into pieces small enough for their places in the picture to be linear on them.
 
     Parameters
     ----------
@@ -175,8 +175,11 @@ def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
 
 
 def _straying(depth: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-    """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures, of
-    triangles with corners at `pixels` (k, 3, 2) that lie at a `depth` (k, 3)."""
+    """Return the error (k, 3), in pixels, of linear interpolation at the middles of the edges 01, 12, 20 of triangles.
+
+    It is the distance between the image of an edge's middle and the middle of the edge's image, for triangles with
+    corners at `pixels` (k, 3, 2) and depths `depth` (k, 3).
+    """
     other = following(depth)
     return 0.5 * np.abs(other - depth) / (other + depth) * edge_lengths(pixels)
 

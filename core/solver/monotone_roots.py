@@ -14,7 +14,7 @@ _FAR = 2.0 ** 300
 
 def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
                    high: np.ndarray) -> tuple[Roots, np.ndarray]:
-    """Every root between `low` and `high`, whatever the cubic.
+    """Find every root between `low` and `high` of any cubic.
 
     Coefficients at either end that rounding cannot tell from zero are taken as zero: their roots lie at 0 or at
     infinity as far as anyone can know, and are no positive roots. What is left is split at the extrema into monotone
@@ -78,7 +78,14 @@ def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
 
 
 def _without_noise(c: np.ndarray, bounds: np.ndarray):
-    """The cubics less the outer coefficients within their bounds, and the first and last coefficient left."""
+    """Set outer coefficients of the cubics `c` (4, n) to zero that lie within their `bounds` (4, n).
+
+    Returns
+    -------
+    c : (4, n) float64
+    first, last : (n,) float64, the first and last coefficient that is not within its bound
+    degenerate : (n,) bool, True for cubics all of whose coefficients are within their bounds
+    """
     known = np.abs(c) > bounds
     degenerate = ~(known[0] | known[1] | known[2] | known[3])
     if known[0].all() and known[3].all():

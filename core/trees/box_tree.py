@@ -64,8 +64,10 @@ class BoxTree:
 
     @classmethod
     def of_one_leaf(cls, mesh: TriangleMesh) -> BoxTree:
-        """All triangles in their own order, not numbers where one has no area, in a leaf without a box: for those who
-        know without boxes which triangles to test."""
+        """Build a tree of one leaf without a box, with all triangles in their own order.
+
+        It is for callers that find the triangles to test in another way. Frames of triangles without an area are NaN.
+        """
         middle, size, corners, kept = _about_middle(mesh)
         frames = np.full((12, len(mesh.triangles)), np.nan)
         frames[:, kept] = _frames(corners, kept)
@@ -74,7 +76,15 @@ class BoxTree:
 
 
 def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np.ndarray]:
-    """Middle and size of a mesh, the corners (3, m, 3) of its triangles about the middle, and those with an area."""
+    """Centre a mesh at the origin.
+
+    Returns
+    -------
+    middle : (3,) float64, centre of its bounding box
+    size : float, half the diagonal of the box
+    corners : (3, m, 3) float64, corners of the triangles relative to the centre
+    kept : (k,) int64, triangles with an area
+    """
     corners = rows(mesh.positions[mesh.triangles])
     used = corners.reshape(3, -1) if corners.size else np.zeros((3, 1))
     low, high = used.min(axis=1), used.max(axis=1)
@@ -84,8 +94,13 @@ def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np
 
 
 def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
-    """(low, high, child, start, count) of the nodes of each level, and the order of the triangles, with boxes `low` to
-    `high` (3, m)."""
+    """Build the tree over triangles with boxes from `low` to `high` (3, m), level by level.
+
+    Returns
+    -------
+    levels : list of tuples (low, high, child, start, count), arrays of each level's nodes as in `BoxTree`
+    order : (m,) int64, triangles, leaf after leaf
+    """
     order = np.arange(low.shape[1])
     start, count = np.zeros(1, dtype=np.int64), np.full(1, len(order))
     nodes, levels = 1, []

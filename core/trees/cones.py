@@ -110,6 +110,9 @@ def _spheres_round(centre: np.ndarray, radius: np.ndarray, start: np.ndarray) ->
 
 
 def _opening(half: np.ndarray, everywhere: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return sine and cosine of opening angles from the sines of their halves, `half` (n,); -1 for wide cosines."""
+    """Return sine and cosine of opening angles from the sines of their halves, `half` (n,).
+
+    The cosine of cones that are too wide, or contain `everywhere` (n,), is -1.
+    """
     wide = (half >= 0.7) | everywhere
     return 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0)), np.where(wide, -1.0, 1.0 - 2.0 * half**2)

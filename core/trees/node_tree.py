@@ -90,7 +90,7 @@ class NodeTree:
         return cone[:0], node[:0], visited
 
     def top(self) -> tuple[int, np.ndarray]:
-        """The level at which a descent begins, and its nodes."""
+        """Return the level at which a descent begins, and its nodes."""
         level = min(FIRST_LEVEL, self.depth)
         return level, np.arange(2**level)
 
@@ -113,10 +113,10 @@ def depth_for(count: int, bucket: int) -> int:
 
 
 def along_curve(points: np.ndarray) -> np.ndarray:
-    """The order (n,) of points (n, 3), at least one, along a Z curve.
+    """Return the order (n,) that sorts `points` (n, 3), at least one, along a Z curve.
 
-    It is that of a tree that halves the widest box along x, y and z in turn, and comes from one sort (C. Lauterbach et
-    al., "Fast BVH Construction on GPUs", Eurographics 2009).
+    It is the order of a tree that halves the bounding cube along x, y and z in turn, and needs only one sort
+    (C. Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009).
     """
     count = len(points)
     low, size = points.min(axis=0), np.ptp(points, axis=0).max()
@@ -130,21 +130,24 @@ def along_curve(points: np.ndarray) -> np.ndarray:
 
 
 def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
-    """Leaf of each point (n, 3) in a complete tree, of equal parts of a Z curve through all of them."""
+    """Return the leaf (n,) of each point (n, 3) in a complete tree whose leaves are equal parts of a Z curve."""
     leaf = np.empty(len(points), dtype=np.int64)
     leaf[along_curve(points)] = np.arange(len(points)) * 2**depth // len(points)
     return leaf
 
 
 def _spread(number: np.ndarray) -> np.ndarray:
-    """Numbers (n,) of 21 bits with two zeros between each two of their bits."""
+    """Insert two zeros between neighbouring bits of integers `number` (n,) of 21 bits."""
     for shift, mask in _SPREADING:
         number = (number | (number << np.uint64(shift))) & np.uint64(mask)
     return number
 
 
 def node_spheres(low: np.ndarray, high: np.ndarray, leaf_start: np.ndarray, depth: int) -> list:
-    """Spheres around the boxes (3, t) of each node's triangles, which lie in the order of the leaves."""
+    """Compute the bounding spheres of all nodes, level by level, as in `NodeTree.spheres`.
+
+    `low` and `high` (3, t) are corners of the triangles' boxes, in the order of the leaves.
+    """
     leaves = 2**depth
     box_low, box_high = np.full((3, leaves), np.inf), np.full((3, leaves), -np.inf)
     filled = np.flatnonzero(leaf_start[1:] > leaf_start[:-1])

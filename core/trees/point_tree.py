@@ -77,7 +77,7 @@ class PointTree(VertexTree):
         return tree
 
     def trace(self, cones: Cones, magnification: Magnification) -> PointPairs:
-        """All pairs whose images together show what the cameras see of the vertices."""
+        """Find pairs of cameras and vertices that together show all visible vertices; one may represent several."""
         none = np.zeros(0, dtype=np.int64)
         cameras, vertices, radii, visited = [none], [none], [np.zeros(0)], 0
         covered = np.zeros(len(self.mesh.positions), dtype=bool)

@@ -102,8 +102,11 @@ class Shafts:
 
 
 def _directions(axis: np.ndarray, ends: np.ndarray, run: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Two unit vectors (3, n) across each axis, and across one another, that along which `ends` (3, k) of rays are
-    spread least first."""
+    """Return two unit vectors (3, n) at right angles to each `axis` (3, n) and to one another.
+
+    Along the first the `ends` (3, k) of the axis's rays are spread least, along the second most. Ray k belongs to axis
+    `run[k]`; the rays of each axis begin at `start` (n,).
+    """
     first, second = across(axis)
     count = np.diff(np.append(start, len(run)))
     x, y = ((end := dot(ends, columns(way, run))) - (np.add.reduceat(end, start) / count)[run]

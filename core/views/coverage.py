@@ -71,8 +71,13 @@ class Covered:
 
 
 def planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Slopes (2, f) over the picture and base (f,) of what is `order` (3, f) at the corners (2, 3, f); level without an
-    area."""
+    """Fit planes to values `order` (3, f) at the corners (2, 3, f) of triangles in the picture.
+
+    Returns
+    -------
+    slope : (2, f) float64, change by pixel in x and y; zero for triangles without an area
+    base : (f,) float64, value at the picture's origin
+    """
     (ax, ay), (bx, by) = (corners[:, k] - corners[:, 0] for k in (1, 2))
     a, b = (order[k] - order[0] for k in (1, 2))
     area = ax * by - ay * bx
@@ -81,8 +86,11 @@ def planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 
 def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) -> tuple[np.ndarray, np.ndarray]:
-    """The first pixel, and the one after the last, of the runs in rows y (r,) that triangles `face` (r,) of those with
-    `corners` (2, 3, f) have there: between the side from the lowest corner to the highest and the two others."""
+    """Find the run of pixels that each triangle `face` (r,) covers, or touches, in a row `y` (r,).
+
+    The run lies between the side from the lowest corner to the highest and the two other sides. `corners` (2, 3, f) are
+    those of all triangles. Returns the first pixel (r,) of each run, and the pixel (r,) after the last.
+    """
     x0, x1, x2, y0, y1, y2, *slopes = columns(_risen(corners), face)
 
     def beside(height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -103,8 +111,13 @@ def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) 
 
 
 def _risen(corners: np.ndarray) -> np.ndarray:
-    """(9, f): x and y of the corners (2, 3, f), the lowest first; and by how much x changes with y along the sides from
-    the lowest to the highest, to the middle one, and between these."""
+    """Sort the corners (2, 3, f) of triangles by y, and compute the slopes of the sides.
+
+    Returns
+    -------
+    (9, f) float64: x of the three corners, the lowest first; y of the corners; change of x with y along the sides from
+    the lowest to the highest corner, from the lowest to the middle one, and from the middle one to the highest
+    """
     x, y = list(corners[0]), list(corners[1])
     for one, other in ((0, 1), (1, 2), (0, 1)):
         turned = y[one] > y[other]

@@ -178,8 +178,14 @@ def _places(frames: SceneFrames, column: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
            column: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The functions and the eye's distance as `HiddenParts` has them, (4 or 5, 3, p) and (p,); and which triangles are
-    not seen edge on, when they hide nothing."""
+    """Compute `HiddenParts.sides` and `HiddenParts.eye` of pairs of a `camera` (p,) and a triangle `column` (p,).
+
+    Returns
+    -------
+    sides : (4 or 5, 3, p) float64
+    eye : (p,) float64
+    solid : (p,) bool, False for triangles that are seen edge on, which hide nothing
+    """
     view = cameras.view
     places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
     vertices = rows(frames.positions[frames.vertices[:, column]])

@@ -26,20 +26,20 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
                          again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates],
                          opacities: Opacities = Opacities(),
                          slide: float = 1.0) -> tuple[Candidates, np.ndarray, int, int]:
-    """Candidates of cameras without the parts that triangles hide from as near as layers slide, or at least those that
-    `maximum` cameras allow.
+    """Cut off the parts of cameras that triangles hide closer than layers slide, up to about `maximum` pieces.
 
     Parameters
     ----------
-    again : callable, the candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut
-    opacities : Opacities, of the triangles; those that may be covered cut nothing off
-    slide : float, share of what layers slide before other mirrors
+    again : callable, finds the candidates among pairs of a camera and a column, for the pieces of cut cameras
+    opacities : Opacities, of the triangles; triangles that may be covered cut nothing off
+    slide : float, share of the usual distance that layers slide
 
     Returns
     -------
     candidates : Candidates
-    crowd : (n,) bool, cameras too crowded to be looked at again
-    count, left : int, how many were cut, and how many were not, or not along all outlines
+    crowd : (n,) bool, True for cameras with too many candidates to search again
+    count : int, number of cameras that were cut
+    left : int, number of cameras that were not cut, or not along all outlines
     """
     cameras, frames = candidates.cameras, candidates.frames
     found, left = _hidden_closely(candidates, opacities, slide * (GAP + DEPTH))

@@ -84,7 +84,7 @@ class LightRays:
         self._trace = (tracer or by_boxes)(self._whole)
 
     def thrown(self, lamp: Lamp, count: int, seed: int = 0, depth: int = 1) -> Landed:
-        """About `count` rays from all over the mirror."""
+        """Trace about `count` light rays from the `lamp`, reflected all over the mirror up to `depth` times."""
         face, uv, area = _strewn(self._mirror, lamp, count, np.random.default_rng(seed))
         breathe()
         place = self._surface.places(face, uv)
@@ -157,7 +157,7 @@ class LightRays:
 
 
 def by_boxes(mesh: TriangleMesh) -> Tracer:
-    """NumPy's own."""
+    """Make a tracer of rays with NumPy, by a tree of boxes over `mesh`."""
     tree = BoxTree.build(mesh)
 
     def trace(origins: np.ndarray, directions: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -168,7 +168,14 @@ def by_boxes(mesh: TriangleMesh) -> Tracer:
 
 def _strewn(mirror: TriangleMesh, lamp: Lamp, count: int,
             rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (face, (u, v)) and the area that each stands for: more of them where more light comes, some everywhere."""
+    """Sample about `count` places on the mirror, more where more light arrives, some everywhere.
+
+    Returns
+    -------
+    face : (n,) int64, triangle of the mirror
+    uv : (2, n) float64, coordinates in it
+    area : (n,) float64, area of the mirror that each place represents
+    """
     owner, own = _parts(mirror, lamp)
     a, b, c = _corners(mirror, owner, own)
     normal = 0.5 * np.cross(b - a, c - a)
@@ -195,8 +202,13 @@ def _strewn(mirror: TriangleMesh, lamp: Lamp, count: int,
 
 
 def _parts(mirror: TriangleMesh, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
-    """The mirror's triangles in parts that are smaller than they are far from the lamp: the triangle (p,) of each, and
-    its corners (p, 3, 2) there as (u, v)."""
+    """Split the mirror's triangles into parts that are smaller than `NEAR` times their distance from the lamp.
+
+    Returns
+    -------
+    owner : (p,) int64, triangle of each part
+    own : (p, 3, 2) float64, its corners in the triangle, as (u, v)
+    """
     count = len(mirror.triangles)
     owner = np.arange(count)
     own = np.broadcast_to(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), (count, 3, 2))
@@ -217,7 +229,7 @@ def _parts(mirror: TriangleMesh, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _corners(mirror: TriangleMesh, owner: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The world positions (p, 3) of three corners (p, 3, 2)."""
+    """Return the world positions, three (p, 3), of the parts' corners `own` (p, 3, 2) in triangles `owner` (p,)."""
     a, b, c = np.moveaxis(mirror.positions[mirror.triangles[owner]], 1, 0)
     first, second, third = (a + own[:, k, :1] * (b - a) + own[:, k, 1:] * (c - a) for k in range(3))
     return first, second, third

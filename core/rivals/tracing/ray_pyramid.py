@@ -33,7 +33,7 @@ class RayPyramid:
 
     @classmethod
     def build(cls, grid: np.ndarray, places: np.ndarray, rays: np.ndarray) -> RayPyramid:
-        """`grid` (height, width) holds the index of each cell's ray, -1 where there is none."""
+        """Build the pyramid; `grid` (height, width) holds the index of each cell's ray, -1 if there is none."""
         depth = int(np.ceil(np.log2(max(*grid.shape, 1))))
         side = 2**depth
         full = np.full((side, side), -1)
@@ -46,8 +46,13 @@ class RayPyramid:
         return cls(places, rays, levels)
 
     def nearest(self, points: np.ndarray) -> tuple[np.ndarray, int]:
-        """The ray (v,) that passes nearest to each of `points` (3, v), by the angle between it and the way from where
-        it starts to the point; and how many cones were looked at."""
+        """Find the ray that passes nearest to each of `points` (3, v), by the angle at the ray's origin.
+
+        Returns
+        -------
+        ray : (v,) int64
+        visited : int, number of cones tested
+        """
         found, visited = np.full(points.shape[1], -1), 0
         for start in range(0, points.shape[1], POINTS_AT_ONCE):
             part = slice(start, start + POINTS_AT_ONCE)
