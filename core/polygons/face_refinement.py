@@ -141,7 +141,7 @@ class FaceRefinement:
             settled = own[nearer]
             best[asked[nearer]] = away[nearer]
             point[:, settled], place[:, settled], distance[settled] = target[:, nearer], spot[:, nearer], s[nearer]
-        # an image at the edge's end, or none, straightens nothing however often the edge is split
+        # do not split an edge without an image near its middle: that would never straighten it
         chosen[along[best > NEAR_MIDDLE * length[along]]] = False
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]

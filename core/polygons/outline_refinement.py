@@ -1,8 +1,8 @@
 """Refinement of the cameras in which the straight outline of a triangle would miss the true, quadratic one.
 
-What the quadratic part adds to a triangle's side halfway along a camera's edge, over the side's rise per pixel, tells
-how many pixels the straight outline misses there. Tall cameras that see a triangle edge on ask for it, and those in
-which the rays cross before the triangle; all others keep their size.
+The deviation in pixels is the contribution of the quadratic part to a triangle's side halfway along a camera's edge,
+divided by the side's gradient per pixel. It is large in tall cameras that see a triangle edge on, and in cameras whose
+rays cross before the triangle; all others keep their size.
 """
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
-CROWD = 24  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
+CROWD = 24  # outlines of mirrors in a camera, at most: everything that it sees is cut along them
 
 
 def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,

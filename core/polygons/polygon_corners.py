@@ -225,7 +225,7 @@ def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray):
 def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray):
     place = corners.guess(chosen)
     point, distance = corners.seen(chosen, place)
-    # the lines have no names by which neighbours could share them: what meets in one place is one node
+    # neighbours cannot identify these lines by a label: merge corners that lie in one place
     both = np.concatenate((place, point))
     low, size = both.min(axis=1, keepdims=True), np.ptp(both, axis=1).max()
     first, group = groups(*np.rint((both - low) / (WELD * max(size, 1e-300))).astype(np.int64))

@@ -1,7 +1,7 @@
-"""Images that nearer ones hide: of a point that a mirror shows several times, the eye may see some of its images only.
+"""Hidden images: if a mirror shows a point several times, the eye may see only some of its images.
 
-The mirror images of all faces, each as far behind the mirror as its way is long, are drawn into a z-buffer; what a
-piece of a face shows is hidden where the plane of another face that a pixel shows is nearer than its own.
+The virtual images of all faces, each as far behind the mirror as its path is long, are drawn into a z-buffer. A piece
+of a face is hidden where the plane of the face that a pixel shows is nearer than its own plane.
 """
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .placement import place
 from .reflection_mesh import ReflectionMesh
 
 AT_ONCE = 1 << 15   # pieces
-NEARER = 1e-3   # share of a distance: what touches hides nothing
+NEARER = 1e-3   # share of a distance: surfaces that touch do not hide one another
 INWARDS = 0.8   # share of the distance from a piece's middle to its corners: test points keep off its border
 
 

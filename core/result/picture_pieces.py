@@ -29,7 +29,7 @@ AT_ONCE = 1 << 15  # pieces
 
 @dataclass(frozen=True)
 class PicturePieces(ColumnArrays):
-    """Pieces of the triangles of a diffuse scene, and where the eye sees them in the mirror.
+    """Pieces of the triangles of a diffuse scene, with their places in the picture of the mirror.
 
     Attributes
     ----------
@@ -38,11 +38,11 @@ class PicturePieces(ColumnArrays):
     weights : (k, 3, 3) float64
         Barycentric coordinates of the piece's corners in it.
     pixels : (k, 3, 2) float64
-        Where the eye sees the corners, in pixels from the picture's lower left corner, right and up.
+        Images of the corners, in pixels from the picture's lower left corner, right and up.
     image : (k,) int64
-        Which image the piece belongs to: one that hangs together and is nowhere turned over, 0 the largest in the
-        picture; what nearer things hide comes after all that is seen. A point that is seen several times lies in
-        pieces of several images.
+        Number of the image that the piece belongs to. An image is connected and has one parity; 0 is the largest in the
+        picture, and hidden pieces have higher numbers than all visible ones. A point that is seen several times lies
+        in pieces of several images.
 
     Examples
     --------
@@ -144,9 +144,9 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
 
 
 def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
-    """The image (m,) that each face belongs to, the largest first."""
+    """Number the connected images of one parity, the largest first; return the number (m,) for each face."""
     parity = np.sign(mesh.image_parity[mesh.triangles].sum(axis=1, dtype=np.int64))
-    # images that are turned over against each other meet in vertices on their caustic
+    # separate vertices by parity: images of opposite parity meet in vertices on their caustic
     _, vertex = distinct((mesh.triangles * 3 + (parity[:, None] + 1)).ravel())
     part = connected(vertex.reshape(-1, 3))
     breathe()

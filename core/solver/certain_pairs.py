@@ -130,7 +130,7 @@ def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
         part[0].max(axis=0, out=first)
         part[1:].max(axis=(0, 1), out=edges)
     lengths *= _ROUND
-    # comparisons with what is not a number are false, so that it leaves every doubt
+    # NaN leaves a pair in doubt, since all comparisons with it are false
     lengths[:, ~(_ordinary(*lengths[:2]) & _ordinary(*lengths[2:]))] = np.nan
     return lengths
 

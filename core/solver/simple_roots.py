@@ -1,4 +1,4 @@
-"""The ordinary cubic: simple roots by the closed form, each certified; and which cubics are not ordinary."""
+"""Ordinary cubics: simple roots in closed form, each certified; all other cubics are marked."""
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -16,7 +16,7 @@ from ..support import portions
 from ..views import Covered, View
 from .cones import Cones
 
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+AT_ONCE = 16384  # triangles whose arrays fit the cache
 LINES = 1 << 16  # test lines through all bodies together
 FEWEST, MOST = 4, 64  # test lines along each side of one body
 TOGETHER = 1e-9  # share of a body's size: closer surfaces are met at once
@@ -107,7 +107,7 @@ class ClosedBodies:
 
     def having(self, some: np.ndarray) -> np.ndarray:
         """Return True for triangles (m,) of bodies that some of the triangles, `some` (m,), bound."""
-        bodies = mask(self.low.shape[1] + 1, self.body[some])  # the last one for what bounds none
+        bodies = mask(self.low.shape[1] + 1, self.body[some])  # the last entry is for triangles that bound no body
         return (self.body >= 0) & bodies[self.body]
 
 

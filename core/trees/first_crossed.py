@@ -29,7 +29,7 @@ def first_crossed(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: 
     distance : (n,) float64, infinite if it meets none
     """
     count = ray.shape[1]
-    if count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
+    if count * WORTH_BOXES > len(tree):  # by counts alone, so that the result does not depend on what is cached
         return first_of_many(tree, origin, ray, beyond, asked, limit)
     first, distance = _by_cones(tree, origin, ray, beyond, asked)
     near = np.isfinite(distance) if limit is None else distance < limit

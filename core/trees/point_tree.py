@@ -1,4 +1,4 @@
-"""The vertices of a dense diffuse scene, for its rendering as points: of those that lie within a pixel one is shown."""
+"""The vertices of a dense diffuse scene, for rendering as points: one of the vertices within a pixel is shown."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from .magnification import Magnification
 from .node_tree import along_curve
 from .vertex_tree import VertexTree
 
-SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
+SMALL = 1.0  # pixels: one vertex represents the vertices of a node if the node's image is smaller
 
 
 @dataclass(frozen=True)
@@ -22,9 +22,9 @@ class PointPairs:
     ----------
     camera, vertex : (p,) int64
     stood : (p,) float64
-        Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
-    visited : int, tests of a cone against a node
-    covered : (v,) bool, vertices of the mesh in nodes of which one stands for all
+        Radius of the sphere around the vertices that this one represents, 0 if it represents only itself.
+    visited : int, number of tests of a cone against a node
+    covered : (v,) bool, True for vertices of the mesh in nodes that one vertex represents
     """
 
     camera: np.ndarray
@@ -70,7 +70,7 @@ class PointTree(VertexTree):
         order = used[along_curve(mesh.positions[used])] if len(used) else used
         tree = cls.along_curve(mesh, given, order, normal, reach)
         if not len(mesh.triangles):
-            # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
+            # vertices without faces: assume that those of a leaf are spread evenly over a disc of the leaf's size
             count = np.diff(tree.leaf_start)
             leaf_reach = 2.0 * np.maximum(tree.spheres[-1][3], 0.0) / np.sqrt(np.maximum(count, 1))
             reach[order] = np.repeat(leaf_reach, count)

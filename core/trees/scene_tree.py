@@ -23,7 +23,7 @@ from .shafts import Shafts
 from .vertex_tree import VertexTree
 
 BUCKET = 4
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+AT_ONCE = 16384  # triangles whose arrays fit the cache
 LEAST_FAMILY = 1.5  # cones: to look for fewer together costs more than it spares
 
 
@@ -185,6 +185,6 @@ def _not_too_many(cone: np.ndarray, tests: np.ndarray, wanted: np.ndarray, enoug
     A cone whose `tests` (p,) against triangles exceed its `enough` (n,) in sum is set to not wanted, in place.
     """
     if len(cone):
-        part = slice(low := cone.min(), cone.max() + 1)  # a view: what is no longer wanted is told through it
+        part = slice(low := cone.min(), cone.max() + 1)  # a slice gives a view, so that `wanted` changes in place
         wanted[part] &= np.bincount(cone - low, tests, part.stop - low) <= enough[part]
     return wanted[cone]

@@ -19,7 +19,7 @@ from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
 from .picture_pairs import PAIRS_AT_ONCE, pairs_in_picture
 
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
-CELLS = 256.0  # across the wider side of the picture, for what lies over what
+CELLS = 256.0  # grid cells across the wider side of the picture, to find overlaps
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,

@@ -1,8 +1,8 @@
-"""Division: pieces are split until they are whole faces, straight enough, or too small to bother.
+"""Division: pieces are split until they can be drawn unclipped, are straight enough, or too small.
 
-Edges of the scene have bent images: those whose middle strays from the chord get a node there. Triangles over the
-border of the patch are diced, so that what is left for cameras is small. What is decided of an edge holds for both its
-sides.
+Edges of the scene have curved images: an edge whose middle deviates from the chord gets a node there. Triangles over
+the border of the patch are split into small pieces, so that little is left to cameras. A decision about an edge holds
+for the faces on both its sides.
 """
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Division:
         finished, left, limited = [], [np.zeros((2, 0))], 0
         for _ in range(LEVELS):
             breathe()
-            # short edges and such as leave the patch beside whole faces are what they are
+            # keep pieces none of whose edges may have to be split
             asked = self._asked(images, pieces)
             breathe()
             some = asked[0] | asked[1] | asked[2]

@@ -9,7 +9,7 @@ from ..geometry import ColumnArrays, mask
 from ..patches import Patch, changes, find
 from ..support import portions
 
-AT_ONCE = 16384  # points: what their arrays take fits the cache
+AT_ONCE = 16384  # points whose arrays fit the cache
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Images(ColumnArrays):
     @classmethod
     def at(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
            found: np.ndarray) -> Images:
-        """Make images of `points` (3, n), relative to the eye, known to be at `uv` (2, n) of triangles `member` (n,)."""
+        """Make images of `points` (3, n), relative to the eye, with known places `uv` in triangles `member`."""
         count = len(s)
         place, pixel = np.empty((3, count)), np.empty((2, count))
         for part in portions(count, AT_ONCE):

@@ -1,11 +1,11 @@
-"""Vertices of which the picture cannot show more than one: the nearest to the middle of their node stands for all.
+"""Vertex clustering: if the picture cannot resolve a node's vertices, the nearest to its centre represents them all.
 
-The tree of the vertices is descended by the images of its nodes' middles, as for points, so that the work is bounded by
-what the picture shows and not by the scene. A triangle goes on between those that stand for its corners, or is gone
-where these are two (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993):
-vertices are moved together, never apart, so that no crack opens. What an outline runs through is drawn together in
-smaller parts, what would be lost, as wires and leaves, not at all, and nothing with what it does not hang together
-with, as cloth with skin.
+The tree of vertices is descended by the images of its nodes' centres, as for points, so that the work is bounded by the
+picture and not by the scene. A triangle is drawn between the representatives of its corners; it is dropped if two of
+these are the same (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993).
+Vertices only move together, so that no cracks open. Nodes with an outline in them are merged in smaller parts. Nodes
+that would lose their surface, such as wires and leaves, are not merged, nor are disconnected parts, such as cloth and
+skin.
 """
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ..support import TOGETHER_AT_OUTLINES, breathe, portions
 from ..trees import SceneTree
 from .images import Images
 
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+AT_ONCE = 16384  # triangles whose arrays fit the cache
 LEFT = 0.6  # share of a surface's area: if less remains, merging has lost details and not only smoothed them
 
 

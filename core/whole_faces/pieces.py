@@ -1,6 +1,6 @@
-"""Pieces of the diffuse triangles, and which of them are whole faces.
+"""Pieces of the diffuse triangles, and the test whether a piece can be drawn unclipped.
 
-A triangle with three images that lies on the patch away from its border is a whole face.
+A piece can be, if its three corners have images and it lies on the patch away from the patch's border.
 """
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from ..support import portions
 from ..views import box
 from .images import Images
 
-AT_ONCE = 16384  # pieces: what their arrays take fits the cache
+AT_ONCE = 16384  # pieces whose arrays fit the cache
 NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie
 
 

@@ -26,7 +26,7 @@ LEAST_SHARE = 0.25  # share of the visible mirror: a smaller patch is not worth 
 FAR = 64.0  # pixels by which edges that leave the patch may be longer
 WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
-WIDER = 1.25  # than the rays of a triangle at its corners, or at its probes: those between them
+WIDER = 1.25  # factor on the spread of a triangle's rays at its corners, or at its probes, to bound the rays between
 TURNING = 0.05  # sine of how far the rays at a triangle's corners turn, beyond which it is probed between them too
 
 
