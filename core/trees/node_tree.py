@@ -95,8 +95,10 @@ class NodeTree:
         return level, np.arange(2**level)
 
     def below(self, level: int, node: np.ndarray) -> tuple[int, np.ndarray, np.ndarray]:
-        """Return the next level of a descent, the descendants (m,) there of nodes `node` (n,), and for each the index (m,)
-        of its ancestor in `node`."""
+        """Return the next level of a descent from nodes `node` (n,), their descendants, and the ancestors of these.
+
+        Descendants (m,) are nodes of the next level; ancestors (m,) are indices into `node`.
+        """
         step = min(STRIDE, self.depth - level)
         fan = np.arange(2**step)
         return level + step, (node[:, None] * len(fan) + fan).ravel(), np.repeat(np.arange(len(node)), len(fan))
