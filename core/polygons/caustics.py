@@ -1,7 +1,7 @@
 """Caustics: faces that fold over are cut where the map's magnification is zero, so that each has one parity.
 
-Across a caustic the image of a point turns over, and two images are born or die; a face with corners on both sides
-would join images of different parity. The cut lies on the caustic itself, and both sides share it.
+Across a caustic the image of a point is mirrored, and two images appear or vanish. A face with corners on both sides
+would join images of different parity. The cut lies on the caustic itself; the faces on both sides share its nodes.
 """
 from __future__ import annotations
 
@@ -19,12 +19,13 @@ PLACES_AT_ONCE = 32768
 
 def split_at_caustics(cameras: Cameras, frames: SceneFrames, nodes: Nodes,
                       faces: Faces) -> tuple[Nodes, Faces, int]:
-    """Faces of one parity each; only cameras whose rays may cross are looked at.
+    """Split faces at caustics so that each has one parity. Only cameras whose rays may cross are examined.
 
     Returns
     -------
-    nodes, faces
-    cut : int, how many edges were cut
+    nodes : Nodes, the given ones, then those on caustics
+    faces : Faces
+    cut : int, number of edges that were cut
     """
     mirror_map = cameras.mirror_map
     folding = np.flatnonzero(may_fold(cameras)[faces.camera])
@@ -58,7 +59,19 @@ def _magnification(mirror_map, frames, face, column, place) -> np.ndarray:
 
 
 def _zero(mirror_map, frames, face, column, start, end) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Where between two places of opposite parity the magnification is zero, by bisection; the point seen, and s."""
+    """Find by bisection the place of zero magnification between two places of opposite parity on the mirror.
+
+    Parameters
+    ----------
+    face, column : (e,) int64, mirror face, and scene triangle as a column of `frames`
+    start, end : (3, e) float64, places on the mirror
+
+    Returns
+    -------
+    place : (3, e) float64, on the mirror
+    point : (3, e) float64, seen there on the scene triangle's plane
+    s : (e,) float64, its ray parameter
+    """
     low, high = np.zeros(len(face)), np.ones(len(face))
     sign = np.sign(_magnification(mirror_map, frames, face, column, start))
     for _ in range(STEPS):

@@ -16,12 +16,12 @@ from ..support import portions
 from .convex_polygons import ConvexPolygons, Line, cut, scene_edges
 
 PAIRS_AT_ONCE = 32768
-SMALLEST = 1e-12  # of a camera: a smaller piece that cutting leaves is nothing
+SMALLEST = 1e-12  # share of a camera's area: cutting drops pieces that are smaller
 
 
 @dataclass(frozen=True)
 class Polygons(ConvexPolygons):
-    """What cameras see of triangles; every polygon has an area.
+    """Visible parts of scene triangles in cameras, as convex polygons with an area.
 
     Attributes
     ----------
@@ -46,20 +46,27 @@ class Polygons(ConvexPolygons):
         return self.candidates.column[self.pair]
 
     def left(self, values: np.ndarray) -> tuple[Polygons, np.ndarray]:
-        """The polygons that are left where a function is not negative that is linear in the weights and has the
-        `values` (3, q) at the corners of their cameras, a nearer mirror beyond; and which polygon each is left of."""
+        """Cut away what a nearer mirror hides: the parts where a function is negative.
+
+        The function is linear in the weights and has the `values` (3, q) at the corners of each polygon's camera.
+
+        Returns
+        -------
+        polygons : Polygons, the parts that remain and have an area
+        chosen : (r,) int64, index of the polygon that each of them is a part of
+        """
         rest = self.cut(values, Line.HIDDEN)
         some = rest.real
         return rest.select(some), some
 
     @property
     def real(self) -> np.ndarray:
-        """Which polygons (n,) are more than nothing, as cutting may leave some."""
+        """Return indices (n,) of the polygons that have an area; cutting may leave empty ones."""
         return np.flatnonzero((self.size >= 3) & (self.areas > SMALLEST))
 
 
 def clip(candidates: Candidates) -> Polygons:
-    """Polygons of the candidates that really overlap."""
+    """Clip the camera of each candidate pair to its scene triangle; pairs that do not overlap are dropped."""
     parts = []
     for portion in portions(max(len(candidates), 1), PAIRS_AT_ONCE):
         part = _clip(candidates.select(portion))
@@ -82,7 +89,7 @@ def _clip(candidates: Candidates) -> Polygons:
 
 
 def whole_triangles(polygons: Polygons) -> int:
-    """How many polygons hold their triangle whole: three corners, all of them scene vertices."""
+    """Count the polygons that contain their entire scene triangle: three corners, all of them scene vertices."""
     vertex = scene_edges(polygons.before) & scene_edges(polygons.after)
     vertices = np.bincount(polygons.polygon, weights=vertex, minlength=len(polygons))
     return int(((polygons.size == 3) & (vertices == 3)).sum())

@@ -14,11 +14,11 @@ import numpy as np
 from ..geometry import ColumnArrays, columns, cross, dot, ranges
 
 Kind = TypeVar("Kind", bound="ConvexPolygons")
-SMALLEST = 1e-9  # of a camera: smaller parts are nothing
+SMALLEST = 1e-9  # share of a camera's area: smaller triangles are dropped
 
 
 class Line(IntEnum):
-    """What bounds a polygon: which of the three edges is meant is added to the first two."""
+    """Labels of the lines that bound a polygon. The first two are bases: add the edge's number, 0 to 2."""
 
     CAMERA_EDGE = 0  # opposite to one of the camera's corners
     SCENE_EDGE = 3  # opposite to one of the triangle's vertices
@@ -27,7 +27,7 @@ class Line(IntEnum):
 
 
 def scene_edges(lines: np.ndarray) -> np.ndarray:
-    """Which lines are edges of the triangle."""
+    """Return True for `lines`, labels as in `Line`, that are edges of the scene triangle."""
     return (lines >= Line.SCENE_EDGE) & (lines < Line.CONTACT)
 
 
@@ -37,7 +37,7 @@ class ConvexPolygons(ColumnArrays):
 
     Attributes
     ----------
-    owner : (q,) int64, what each is a part of: a camera, or a pair of candidates
+    owner : (q,) int64, index of the camera, or of the candidate pair, that each polygon is a part of
     start : (q + 1,) int64, the corners of polygon i are the columns start[i]:start[i + 1] below
     weights : (3, k) float64, of the corners in their cameras
     after : (k,) int8, the label of the line that starts at each corner, as in `cut`
@@ -59,7 +59,7 @@ class ConvexPolygons(ColumnArrays):
 
     @property
     def size(self) -> np.ndarray:
-        """(q,): how many corners each has."""
+        """Number of corners (q,) of each polygon."""
         return np.diff(self.start)
 
     @property
@@ -83,7 +83,7 @@ class ConvexPolygons(ColumnArrays):
 
     @property
     def areas(self) -> np.ndarray:
-        """(q,): the part of its camera that each covers."""
+        """Share (q,) of its camera's area that each polygon covers."""
         (x, y), after = self.weights[:2], self.following
         return np.abs(np.bincount(self.polygon, x * y[after] - x[after] * y, minlength=len(self)))
 
@@ -95,7 +95,7 @@ class ConvexPolygons(ColumnArrays):
         return total / np.maximum(self.size, 1)
 
     def extents(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The least and the largest (..., q) of what the corners of each polygon have, `values` (..., k)."""
+        """Return the minimum and the maximum (..., q) over each polygon of the `values` (..., k) at its corners."""
         start = self.start[:-1]
         return np.minimum.reduceat(values, start, axis=-1), np.maximum.reduceat(values, start, axis=-1)
 
@@ -116,30 +116,56 @@ class ConvexPolygons(ColumnArrays):
                        after=np.concatenate([part.after for part in parts]))
 
     def cut(self: Kind, values: np.ndarray, label: int) -> Kind:
-        """What is left of each polygon, if only nothing, where a function is not negative that is linear in the weights
-        and has the `values` (3, q) at the corners of its camera."""
+        """Cut away the part of each polygon where a function is negative. Polygons may be left without corners.
+
+        Parameters
+        ----------
+        values : (3, q) float64
+            The function at the corners of each polygon's camera; it is linear in the weights.
+        label : int, label of the new edges, as in `Line`
+        """
         weights, after, polygon = cut(self.weights, self.after, self.polygon, values, label)
         size = np.bincount(polygon, minlength=len(self))
         return replace(self, start=np.append(0, np.cumsum(size)), weights=weights, after=after)
 
     def halved(self: Kind, chosen: np.ndarray, values: np.ndarray) -> Kind:
-        """The polygons, of those `chosen` (m,), rising, only where a function is not negative that is linear in the
-        weights and has the `values` (3, m) at the corners of their cameras; and behind all the rest of these m."""
+        """Cut the polygons `chosen` in two where a function is zero that is linear in the weights.
+
+        Parameters
+        ----------
+        chosen : (m,) int64, increasing
+        values : (3, m) float64, the function at the corners of their cameras
+
+        Returns
+        -------
+        (q + m) polygons: all q, those chosen without their negative parts; then the negative parts of the m chosen
+        """
         all_values = np.ones((3, len(self)))
         all_values[:, chosen] = values
         return self.joined((self.cut(all_values, Line.HIDDEN), self.select(chosen).cut(-values, Line.HIDDEN)))
 
     def fans(self, apex: np.ndarray | int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Fans (t) over the polygons from the corners `apex` (q,) of each: the polygon of each triangle, its corners
-        (3, t), and which of its polygon's it is, from 1 on."""
+        """Triangulate the polygons as fans of t triangles from the corner `apex` (q,) of each.
+
+        Returns
+        -------
+        fan : (t,) int64, polygon of each triangle
+        corner : (3, t) int64, its corners, as columns of `weights`
+        step : (t,) int64, its number in its fan, from 1
+        """
         step, fan = ranges(np.ones(len(self), dtype=np.int64), np.maximum(self.size - 2, 0))
         base, length = self.start[:-1][fan], self.size[fan]
         first = np.broadcast_to(apex, len(self))[fan]
         return fan, np.stack([base + (first + k) % length for k in (np.zeros_like(step), step, step + 1)]), step
 
     def triangles(self, smallest: float = SMALLEST) -> tuple[np.ndarray, np.ndarray]:
-        """Fans over the polygons: the owner of each triangle, and the weights (3, 3, n) of its corners, entry [i, k]:
-        weight i of corner k. Triangles up to the `smallest` part of a camera are left out."""
+        """Triangulate the polygons as n triangles; those up to the `smallest` share of a camera's area are left out.
+
+        Returns
+        -------
+        owner : (n,) int64
+        weights : (3, 3, n) float64, entry [i, k]: weight i of corner k
+        """
         fan, corner, _ = self.fans(0)
         weights = self.weights[:, corner]
         areal = np.abs(dot(weights[:, 0], cross(weights[:, 1], weights[:, 2]))) > smallest
@@ -148,19 +174,19 @@ class ConvexPolygons(ColumnArrays):
 
 def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_values: np.ndarray,
         label: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What is left of convex polygons where a function, linear in the weights, is not negative.
+    """Cut away the parts of convex polygons where a function, linear in the weights, is negative.
 
     Parameters
     ----------
     weights : (3, k) float64, of the polygons' corners, polygon after polygon
-    after : (k,) int8, the line that starts at each corner
-    polygon : (k,) int64, rising
+    after : (k,) int8, label of the line that starts at each corner
+    polygon : (k,) int64, polygon of each corner, increasing
     corner_values : (3, p) float64, the function at the corners of each polygon's camera
-    label : the name of the new line
+    label : int, label of the new line
 
     Returns
     -------
-    weights, after, polygon : of the corners that are left; polygons may be left with fewer than three
+    weights, after, polygon : the same of the corners that remain; polygons may be left with fewer than three
     """
     if not len(polygon):
         return weights, after, polygon
@@ -188,12 +214,12 @@ def cut(weights: np.ndarray, after: np.ndarray, polygon: np.ndarray, corner_valu
     way -= start
     way *= share
     way += start
-    # each corner that stays is followed by the crossing on the way to the next
+    # order the corners: each one that stays is followed by the crossing on the edge to the next
     place = np.cumsum(inside.view(np.int8) + crossing.view(np.int8), dtype=np.int64)
     source = np.empty(place[-1], dtype=np.int64)
     source[place[stay] - 1 - crossing[stay]] = stay
     source[place[part] - 1] = np.arange(len(polygon), len(polygon) + len(part))
-    # a leaving polygon goes on along the cut, an entering one along the edge that it was on
+    # label the new corners: an outline that leaves continues along the cut, one that enters along its old edge
     after = np.concatenate((after, np.where(inside[part], np.int8(label), after[part])))
     return (columns(np.concatenate((weights, way), axis=1), source), columns(after, source),
             columns(np.concatenate((polygon, polygon[part])), source))

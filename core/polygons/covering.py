@@ -1,9 +1,9 @@
-"""What cameras see of triangles, told from bounds before anything is cut exactly.
+"""Conservative overlap and occlusion tests of pairs of a camera and a triangle, by bounds, before exact clipping.
 
-A triangle's sides may lie wherever the bounds on their quadratic parts let them; pairs that do not overlap even then
-are dropped. So is what mirrors hide from the whole of a camera. One that sees a mirror and may hold none of its
-outlines sees nothing but mirrors: what lies farther than all of them is hidden. So is what lies farther than one
-triangle of a mirror that fills the camera.
+The bounds on their quadratic parts limit where a triangle's sides may lie; pairs that do not overlap even then are
+dropped. Triangles that mirrors hide from the whole of a camera are dropped too. A camera that sees a mirror, and none
+of its outlines, sees only mirrors: it hides everything farther than all of them. Everything farther than one mirror
+triangle that fills the camera is hidden as well.
 """
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .clipping import clip
 from .convex_polygons import Line, scene_edges
 
 PAIRS_AT_ONCE = 16384  # fit the cache
-TOUCHING = 1e-5  # of what a camera reaches below a triangle's plane: what rises less above only touches it
-FARTHER = 1e-9  # of the distance: what is farther by less is not hidden
+TOUCHING = 1e-5  # share of a camera's depth below a triangle's plane: one that rises less above it only touches it
+FARTHER = 1e-9  # share of the distance: a triangle that is farther by less is not hidden
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,10 @@ class Overlaps(ColumnArrays):
 
     Attributes
     ----------
-    candidates : Candidates, their outlines are those that bound the overlap
-    mirror : (p,) bool, triangles of mirrors
+    candidates : Candidates, their outlines are the sides that bound the overlap
+    mirror : (p,) bool, True for triangles of mirrors
     ends : (p,) bool
-        Of these, those of which an outline, or the line in which they pass through the camera's own, may lie in it.
+        True for mirror triangles that may end inside the camera: at an outline, or where they cross the camera's own.
     """
 
     candidates: Candidates
@@ -42,14 +42,16 @@ class Overlaps(ColumnArrays):
     @classmethod
     def of(cls, cameras: Cameras, frames: SceneFrames, pairs: tuple[np.ndarray, np.ndarray],
            met: SceneAndMirrors) -> Overlaps:
-        """The overlaps among pairs of a camera and a column of the frames."""
+        """Return the overlaps among `pairs`: cameras (k,) and columns (k,) of the `frames`."""
         camera, column = pairs
         return cls.joined([_overlaps(overlapping(cameras, frames, camera[part], column[part]), met)
                            for part in portions(max(len(camera), 1), PAIRS_AT_ONCE)])
 
     def in_sight(self, last: bool) -> Candidates:
-        """Those that mirrors do not surely hide from the whole of their camera, and of the mirrors, at the `last`
-        bounce, those alone that may hide something."""
+        """Return the candidates that mirrors do not surely hide from the whole of their camera.
+
+        At the `last` bounce mirror triangles are kept only where they may hide something.
+        """
         count = len(self.candidates.cameras)
         asked = np.flatnonzero(mask(count, self.candidates.camera[self.mirror])[self.candidates.camera])
         if not len(asked):
@@ -67,7 +69,10 @@ class Overlaps(ColumnArrays):
         return self.candidates.select(in_sight)
 
     def _covered(self, far: np.ndarray) -> np.ndarray:
-        """(n,): the distance behind which mirrors hide all of each camera, infinite where they may leave something."""
+        """Return the distance (n,) behind which mirrors hide everything from each camera, infinite if they may not.
+
+        `far` (p,) are the largest distances of the candidates.
+        """
         mirrors, far, count = self.candidates.select(self.mirror), far[self.mirror], len(self.candidates.cameras)
         fills, middle = smallest(mirrors.ahead) >= 0.0, np.ones(len(mirrors), dtype=bool)
         for side, room in zip(mirrors.sides, mirrors.room):
@@ -76,7 +81,7 @@ class Overlaps(ColumnArrays):
         nearest, farthest = np.full(count, np.inf), np.full(count, -np.inf)
         np.minimum.at(nearest, mirrors.camera[fills], far[fills])
         np.maximum.at(farthest, mirrors.camera, far)
-        # where no mirror ends, what the middle meets goes on all over the camera
+        # if no mirror ends in a camera, a mirror at its middle fills it
         closed = mask(count, mirrors.camera[middle])
         closed[mirrors.camera[self.ends[self.mirror]]] = False
         return np.where(closed, np.minimum(nearest, farthest), nearest)
@@ -99,20 +104,25 @@ def _overlaps(candidates: Candidates, met: SceneAndMirrors) -> Overlaps:
         for side, room, goes_on in zip(own.sides, own.room, inner):
             value = dot(np.repeat(side, wide.size, axis=1), wide.weights)
             ends[some] |= (np.minimum.reduceat(value, wide.start[:-1]) < room) & ~goes_on
-        # where sides are straight, without room, the overlap may end on one to the last bit
+        # straight sides have no room: the overlap may end exactly on one
         ends[some] |= outlines[:, some].any(axis=0)
     return Overlaps(replace(candidates, outlines=outlines), mirror, ends)
 
 
 def _risen(candidates: Candidates) -> np.ndarray:
-    """Those (k,) whose camera rises above the triangle's plane, and not by rounding alone, as beside the line in which
-    a scene cuts through the mirror: what it would see there has no width, but its outline may have another image."""
+    """Return indices (k,) of candidates whose camera rises above the triangle's plane by more than rounding.
+
+    Beside the line in which the scene cuts through the mirror a camera would see a part without width, whose outline
+    may be another image.
+    """
     return np.flatnonzero(largest(candidates.ahead) > -TOUCHING * smallest(candidates.ahead))
 
 
 def _depths(candidates: Candidates) -> tuple[np.ndarray, np.ndarray]:
-    """The least and the largest s (p,) at which rays of the cameras may meet the triangles: quotients of functions that
-    are linear in the weights lie between those at the corners."""
+    """Return the least and the largest s (p,) at which rays of the cameras may meet the triangles' planes.
+
+    A quotient of functions that are linear in the weights lies between its values at the corners.
+    """
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         s = np.where(candidates.rate > 0.0, candidates.ahead / candidates.rate, np.inf)
     return np.where(smallest(candidates.ahead) < 0.0, 0.0, smallest(s)), largest(s)

@@ -1,4 +1,4 @@
-"""Dividing cameras, or what they see, along straight lines, each into the pieces that lines leave."""
+"""Division of cameras, or of the polygons that they see, into pieces along straight lines."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,8 +9,8 @@ from ..geometry import ColumnArrays, columns, dot, first_of, in_order, ranges, s
 from .convex_polygons import ConvexPolygons, Kind
 
 CORNERS_AT_ONCE = 1 << 15  # fit the cache
-PASSES = 256  # lines that cut one piece
-SHORTEST = 1e-6  # of a line: what must lie in a part to cut it
+PASSES = 256  # lines that cut one piece, at most
+SHORTEST = 1e-6  # share of a line's length that must lie in a piece to cut it
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,13 @@ class Lines(ColumnArrays):
 
 
 def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most: int) -> tuple[Kind, np.ndarray]:
-    """The pieces that are left of polygons, not many more than `most`, when each `piece` (k,) of them is cut along its
-    `line` (k,); and the owners of those that are not cut along all of their lines."""
+    """Cut each polygon `piece` (k,) of `pieces` along its `line` (k,); stop at about `most` pieces.
+
+    Returns
+    -------
+    pieces : polygons, all parts on both sides of the lines
+    open_ : (o,) int64, owners of the polygons that were not cut along all of their lines
+    """
     whole: list[Kind] = []
     for number in range(PASSES + 1):
         crossing = _crosses(pieces, lines, line, piece)
@@ -49,7 +54,7 @@ def divide(pieces: Kind, lines: Lines, line: np.ndarray, piece: np.ndarray, most
 
 
 def _crosses(pieces: ConvexPolygons, lines: Lines, line: np.ndarray, piece: np.ndarray) -> np.ndarray:
-    """Whether the lines' bounding parts run through the inside of the pieces."""
+    """Return True (k,) where the bounding part of a `line` (k,) runs through the inside of its `piece` (k,)."""
     size, after = pieces.size, pieces.following
     found = [np.zeros(0, dtype=bool)]
     for part in shares(size[piece], CORNERS_AT_ONCE):
@@ -60,10 +65,18 @@ def _crosses(pieces: ConvexPolygons, lines: Lines, line: np.ndarray, piece: np.n
 
 def _cross(weights: np.ndarray, corners: tuple[np.ndarray, np.ndarray], lines: Lines, line: np.ndarray,
            asked: np.ndarray) -> np.ndarray:
-    """Whether lines (n,) cross pieces; their corners and those after them (k,), each of which is `asked` for a line."""
+    """Return True for each `line` (n,) that crosses its piece.
+
+    Parameters
+    ----------
+    weights : (3, c) float64, of all corners
+    corners : two (k,) int64, corners of the pieces, and the corner after each
+    line : (n,) int64, into `lines`
+    asked : (k,) int64, entry of `line` that each corner is tested for
+    """
     corner, after = corners
     value = dot(columns(weights, corner), columns(lines.values, line[asked]))
-    # the corner after it lies as far from it here as it does among all
+    # a corner and its successor are as far apart in `value` as in `weights`
     value_after = value[np.arange(len(corner)) + after - corner]
     crossing = np.flatnonzero((value >= 0.0) != (value_after >= 0.0))
     share = value[crossing] / (value[crossing] - value_after[crossing])

@@ -23,14 +23,21 @@ LEVELS = 20
 SHORTEST_EDGE = 0.25  # pixels
 MARGIN = 2.0  # pixels round the picture: nobody sees a face beyond
 FORESHORTENED = 4.0  # times as far from the eye's plane as its other end: an edge that is halved in the picture
-NEAR_MIDDLE = 0.45  # of an edge: how far from its middle it may be split
-QUARTER = 0.25  # of an edge: no farther than that from its middle no better place is looked for
+NEAR_MIDDLE = 0.45  # share of an edge's length: largest distance from its middle at which it may be split
+QUARTER = 0.25  # share of an edge's length: a place as near to its middle is accepted without a search for a better one
 
 
 @dataclass(frozen=True)
 class FaceRefinement:
-    """Splits faces on one mirror and one scene; `virtual` tells that faces are drawn at the virtual image's depth,
-    `beyond` which cameras are slivers beyond the horizon, where there is nothing to be exact about."""
+    """Splits faces on one mirror and one scene.
+
+    Attributes
+    ----------
+    cameras : Cameras
+    frames : SceneFrames
+    beyond : (c,) bool, True for cameras that are slivers beyond the horizon, whose faces are not refined
+    virtual : bool, True if faces are drawn at the virtual image's depth
+    """
 
     cameras: Cameras
     frames: SceneFrames
@@ -47,13 +54,14 @@ class FaceRefinement:
 
     def refine(self, nodes: Nodes, faces: Faces, tolerance: float,
                maximum: int) -> tuple[Nodes, Faces, np.ndarray, int]:
-        """Faces whose edges stray by less than `tolerance` pixels.
+        """Split faces until their edges deviate by less than `tolerance` pixels, up to about `maximum` faces.
 
         Returns
         -------
-        nodes, faces
-        left : (2, e) float64, the displacements estimated on the edges that stay, and the lengths of these, in pixels
-        limited : int, edges that the bound on depth or count left unsplit
+        nodes : Nodes
+        faces : Faces
+        left : (2, e) float64, estimated displacements and lengths of the edges that stay, in pixels
+        limited : int, number of edges that the bound on depth or count left unsplit
         """
         finished: list[Faces] = []
         left: list[np.ndarray] = []
@@ -81,8 +89,17 @@ class FaceRefinement:
         return nodes, Faces.joined(finished) if finished else faces, resting_left, 0
 
     def _marked(self, nodes: Nodes, pixels: np.ndarray, faces: Faces, done: np.ndarray, tolerance: float):
-        """Edges to split between nodes at `pixels` (n, 2); of those that no neighbour has settled yet, what they stray
-        by, their lengths, and whether they are to be split; and the nodes in their middles."""
+        """Find the edges to split, of `faces` between nodes at `pixels` (n, 2), and the nodes that split them.
+
+        Returns
+        -------
+        marked : (e,) bool, True for edges to split
+        strayed : (2, o) float64, deviation and length, in pixels, of the edges that are not `done` (f, 3) yet
+        chosen : (o,) bool, True for those of them to split
+        middle : tuple
+            End nodes (e, 2) of the edges, edge of each side of the faces, `marked`, and the place, point and distance
+            of the new nodes.
+        """
         ends, first, edge = shared_edges(faces.nodes)
         face = first // 3
         open_ = np.flatnonzero(~done.reshape(-1)[first])
@@ -107,8 +124,8 @@ class FaceRefinement:
         chosen = (np.minimum(np.where(outline, 2.0 * drift, error), length) > tolerance) & (length > SHORTEST_EDGE)
         breathe()
         along = np.flatnonzero(chosen & outline)
-        # an end many times as near as the other: the edge's middle is seen far from the middle of its image, and what
-        # is seen there is nearest to another point of it
+        # if one end is many times as near as the other, the image of an edge's middle is far from its image's middle:
+        # try the edge's middle first, then the point of the edge nearest to the point seen at the image's middle
         middle, seen, guess = place[:, along], point[:, along], distance[along]
         best = np.full(len(along), np.inf)
         for target in (shown[:, along], _nearest(nodes.point, a[along], b[along], seen)):
@@ -124,15 +141,22 @@ class FaceRefinement:
             settled = own[nearer]
             best[asked[nearer]] = away[nearer]
             point[:, settled], place[:, settled], distance[settled] = target[:, nearer], spot[:, nearer], s[nearer]
-        # an image at the edge's end, or none, straightens nothing however often the edge is split
+        # do not split an edge without an image near its middle: that would never straighten it
         chosen[along[best > NEAR_MIDDLE * length[along]]] = False
         marked[open_] = chosen
         place, point, distance = place[:, chosen], point[:, chosen], distance[chosen]
         return marked, np.stack((left, length)), chosen, (ends, edge, marked, (place, point, distance))
 
     def _in_picture(self, pixels: np.ndarray, corners: np.ndarray) -> np.ndarray:
-        """Which faces with nodes `corners` (m, 3), at `pixels` (n, 2), are not all beside the picture: what a face
-        shows in it is decided by its edges beside it too."""
+        """Return True for faces that may reach into the picture.
+
+        A face may reach into it with all its corners outside, so that its edges outside matter too.
+
+        Parameters
+        ----------
+        pixels : (n, 2) float64, of the nodes
+        corners : (m, 3) int64, nodes of the faces
+        """
         inside = np.ones(len(corners), dtype=bool)
         for place, size in zip(pixels.T, self._view.resolution):
             spots = np.take(place, corners.T)
@@ -141,10 +165,15 @@ class FaceRefinement:
         return inside
 
     def _middle(self, nodes: Nodes, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """How far along drawn edges from nodes `a` to `b` (e,) each is best split, and where on the mirror that is.
+        """Choose where to split the drawn edges from nodes `a` to `b` (e,): halfway in space, or in the picture.
 
-        That is halfway, or, where an end is several times as near as the other, halfway in the picture: half of such an
-        edge in space is little in the picture, however often it is halved.
+        Edges are split halfway in the picture if one end is several times as near to the eye as the other: half of
+        such an edge in space is little in the picture, however often it is halved.
+
+        Returns
+        -------
+        share : (e,) float64, of the edge's length, from `a`
+        place : (3, e) float64, on the mirror
         """
         start, end = (nodes.place[:, node] for node in (a, b))
         if self._view.orthographic:
@@ -159,14 +188,17 @@ class FaceRefinement:
         return share, (weight_a * start + weight_b * end) / (weight_a + weight_b)
 
     def _ways(self, nodes: Nodes, node: np.ndarray) -> np.ndarray:
-        """How far behind the mirror nodes are seen, to their distance from the eye."""
+        """Return path lengths behind the mirror of the nodes `node` (e,), relative to the mirror's distance."""
         if not self._map.unit_rays:
             return nodes.distance[node]
         return nodes.distance[node] / norm(self._view.directions(nodes.place[:, node].T).T)
 
 
 def _nearest(points: np.ndarray, a: np.ndarray, b: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """The points (3, e) of edges from nodes `a` to `b` (e,) at `points` (3, n) that are nearest to what is `seen`."""
+    """Return the points (3, e) on edges that are nearest to the points `seen` (3, e).
+
+    The edges go from nodes `a` (e,) to `b` (e,) at `points` (3, n).
+    """
     start, way = columns(points, a), columns(points, b) - columns(points, a)
     share = dot(seen - start, way) / np.maximum(dot(way, way), 1e-300)
     return start + np.clip(share, 0.0, 1.0) * way

@@ -1,8 +1,8 @@
 """Refinement of the cameras in which the straight outline of a triangle would miss the true, quadratic one.
 
-What the quadratic part adds to a triangle's side halfway along a camera's edge, over the side's rise per pixel, tells
-how many pixels the straight outline misses there. Tall cameras that see a triangle edge on ask for it, and those in
-which the rays cross before the triangle; all others keep their size.
+The deviation in pixels is the contribution of the quadratic part to a triangle's side halfway along a camera's edge,
+divided by the side's gradient per pixel. It is large in tall cameras that see a triangle edge on, and in cameras whose
+rays cross before the triangle; all others keep their size.
 """
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ from .covering import Overlaps
 
 LEVELS = 10
 SHORTEST_EDGE = 1.0  # pixels: a shorter edge of a camera is not split
-CROWD = 24  # outlines of mirrors that a camera may hold: all that it sees is cut along those that run through it
+CROWD = 24  # outlines of mirrors in a camera, at most: everything that it sees is cut along them
 
 
 def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, met: SceneAndMirrors,
                         last: bool) -> tuple[Candidates, np.ndarray, int]:
-    """Candidates of cameras split until no outline in them misses the true one by more than `tolerance` pixels, or
-    until there are `maximum` candidates; at the `last` bounce mirrors only hide.
+    """Split cameras until no straight outline in them misses the true one by more than `tolerance` pixels.
+
+    Splitting stops at about `maximum` candidates. At the `last` bounce mirror triangles only hide others.
 
     Returns
     -------
     candidates : Candidates, the pairs that may really overlap, and that no mirror hides from the whole of their camera
-    open_ : (n,) bool, cameras too small to be split in which some outline still does
+    open_ : (n,) bool, True for cameras too small to be split in which some outline still misses by more
     limited : int, edges of cameras that the bound on depth or count left unsplit
     """
     cameras, frames = candidates.cameras, candidates.frames
@@ -37,7 +38,7 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
     camera, column = np.zeros((2, 0), dtype=np.int64)
     for level in range(LEVELS + 1):
         parts.append(candidates)
-        # of each pair so far, the camera's number now, -1 where it has been split
+        # current camera index of every pair so far, -1 if that camera has been split
         camera, column = np.append(camera, candidates.camera), np.append(column, candidates.column)
         mirror = met.are_mirrors(candidates)
         bent, long = _bent_edges(candidates, tolerance * np.where(mirror, ENDING_SHARE, 1.0))
@@ -60,14 +61,23 @@ def refine_for_outlines(candidates: Candidates, tolerance: float, maximum: int, 
 
 
 def _crowded(candidates: Candidates, mirror: np.ndarray) -> np.ndarray:
-    """Which cameras (n,) hold too many outlines of mirrors, which are those (p,) of the candidates."""
+    """Return True for cameras (n,) with too many outlines of mirrors; `mirror` (p,) is True for mirror candidates."""
     outlines = np.where(mirror, candidates.outlines.sum(axis=0), 0)
     return np.bincount(candidates.camera, outlines, minlength=len(candidates.cameras)) > CROWD
 
 
 def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Edges (n, 3) of the cameras, from each corner to the next, along which some outline misses more than the
-    `tolerance` (p,) of its candidate, in pixels; and those that are long enough to be split."""
+    """Find edges of the cameras, from each corner to the next, along which a straight outline misses the true one.
+
+    Parameters
+    ----------
+    tolerance : (p,) float64, pixels, of each candidate
+
+    Returns
+    -------
+    bent : (n, 3) bool, True where some outline misses by more than its tolerance
+    long : (n, 3) bool, True for edges of those cameras that are long enough to be split
+    """
     cameras, some = candidates.cameras, np.flatnonzero(candidates.outlines.any(axis=0))
     asked, camera = distinct(candidates.camera[some])
     pixels = cameras.view.pixels(cameras.places[:, cameras.corners[asked].ravel()].T).reshape(-1, 3, 2)
@@ -85,7 +95,7 @@ def _bent_edges(candidates: Candidates, tolerance: np.ndarray) -> tuple[np.ndarr
 
 
 def _worth_refining(cameras: Cameras, bent: np.ndarray) -> np.ndarray:
-    """(n, 1): which cameras with edges that are `bent` (n, 3) are worth refining beyond the horizon."""
+    """Return True (n, 1) for cameras with `bent` (n, 3) edges that are no slivers beyond the horizon."""
     asked = bent.any(axis=1)
     worth = asked.copy()
     worth[asked] = ~beyond_horizon(cameras.select(asked))

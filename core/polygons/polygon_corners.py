@@ -20,7 +20,7 @@ from .convex_polygons import Line
 from .vertex_images import NEAR_IMAGE, VertexImages
 
 BESIDE = 0.5  # pixels: how far corners may lie beside their camera, whose sides are straight where the map is not
-WELD = 1e-9  # of the size of what is seen: nodes closer than this are one
+WELD = 1e-9  # share of the extent of all nodes: nodes closer than this are merged
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,17 @@ class Nodes(ColumnArrays):
 
 @dataclass(frozen=True)
 class _Corners:
-    """What the corners of the polygons are made of, one row each, and the images of vertices that some of them are."""
+    """Corners (k) of the polygons, before they become nodes.
+
+    Attributes
+    ----------
+    cameras : Cameras
+    frames : SceneFrames
+    camera, column : (k,) int64, of the polygon of each corner
+    weights : (3, k) float64, in the camera
+    low, high : (k,) int64, labels of the two lines that meet in each corner
+    images : VertexImages, images of the scene's vertices
+    """
 
     cameras: Cameras
     frames: SceneFrames
@@ -57,13 +67,16 @@ class _Corners:
         return self.cameras.mirror_map
 
     def guess(self, chosen: np.ndarray) -> np.ndarray:
-        """Q (3, n) where the linear clip puts the corners."""
+        """Return the places (3, n) on the mirror where linear clipping puts the corners `chosen` (n,)."""
         corners = self.cameras.corners[self.camera[chosen]].T
         return (np.take(self.cameras.places, corners, axis=1) * self.weights[:, chosen]).sum(axis=1)
 
     def near(self, chosen: np.ndarray, moved: np.ndarray, guess: np.ndarray) -> np.ndarray:
-        """Whether places (3, n) moved from the guess, and out of their camera, by no more than straight outlines may
-        miss; else they are another image, or Newton's method went astray on a triangle seen edge on."""
+        """Return True for places `moved` (3, n) that stay near their `guess` (3, n) and near their camera.
+
+        A place that is farther away, by more than a straight outline may miss, is another image, or Newton's method
+        diverged on a triangle seen edge on.
+        """
         view = self.cameras.view
         with np.errstate(invalid="ignore", over="ignore"):
             pixel = view.pixels(moved.T)
@@ -74,34 +87,34 @@ class _Corners:
 
     @cached_property
     def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """From where to where (2, n) in the picture each camera reaches."""
+        """Lower and upper corner (2, c) of the cameras' bounding boxes in the picture, in pixels."""
         return box(columns(self.cameras.view.pixels(self.cameras.places.T).T, self.cameras.corners.T))
 
     def seen(self, chosen: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The point (3, n) that the true ray at a place meets on the triangle's plane, and its s."""
+        """Return the point (3, n) where the true ray at each `place` (3, n) meets the triangle's plane, and its s."""
         face = self.cameras.face[self.camera[chosen]]
         origin, ray = self.mirror_map.leave(face, self.mirror_map.coordinates(face, place))
         s = np.maximum(self.frames.distance(self.column[chosen], origin, ray), 0.0)
         return origin + s * ray, s
 
     def mirror_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
-        """(n, 2) sorted camera corners of the mirror edge `label`."""
+        """Return the two camera corners (n, 2), sorted, of the mirror edge with each `label` (n,)."""
         first = 3 * self.camera[chosen]
         return _rising(*(columns(self.cameras.corners.ravel(), first + corner) for corner in others(label)))
 
     def scene_edge(self, chosen: np.ndarray, label: np.ndarray) -> np.ndarray:
-        """(n, 2) sorted scene vertices of the triangle's edge `label`."""
+        """Return the two scene vertices (n, 2), sorted, of the triangle's edge with each `label` (n,)."""
         vertices, side, column = self.frames.vertices, label - Line.SCENE_EDGE, self.column[chosen]
         return _rising(*(columns(vertices.ravel(), corner * vertices.shape[1] + column) for corner in others(side)))
 
 
 def _rising(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """(n, 2): both, the smaller first."""
+    """Stack two arrays (n,) as (n, 2), the smaller entry first."""
     return np.stack((np.minimum(one, other), np.maximum(one, other)), axis=1)
 
 
 def polygon_nodes(polygons: Polygons, images: VertexImages) -> tuple[Nodes, np.ndarray]:
-    """Nodes of the polygons, and for each corner of a polygon its node."""
+    """Compute the nodes of the polygons, and the index (k,) of the node of each polygon corner."""
     size, before = polygons.size, polygons.before
     low = np.minimum(before, polygons.after).astype(np.int64)
     high = np.maximum(before, polygons.after).astype(np.int64)
@@ -163,7 +176,7 @@ def _crossings(corners: _Corners, chosen: np.ndarray):
 
 
 def _share(offset: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """The part of the `way` (3, n) that an offset goes along it; none of a way without a length."""
+    """Return the share (n,) of each vector `way` (3, n) that an offset covers along it; 0 for a way without length."""
     square = dot(way, way)
     return np.divide(dot(offset, way), square, out=np.zeros_like(square), where=square > 0.0)
 
@@ -212,7 +225,7 @@ def _contacts_of_scene_edges(corners: _Corners, chosen: np.ndarray):
 def _on_lines_of_hiding(corners: _Corners, chosen: np.ndarray):
     place = corners.guess(chosen)
     point, distance = corners.seen(chosen, place)
-    # the lines have no names by which neighbours could share them: what meets in one place is one node
+    # neighbours cannot identify these lines by a label: merge corners that lie in one place
     both = np.concatenate((place, point))
     low, size = both.min(axis=1, keepdims=True), np.ptp(both, axis=1).max()
     first, group = groups(*np.rint((both - low) / (WELD * max(size, 1e-300))).astype(np.int64))

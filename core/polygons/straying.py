@@ -1,5 +1,7 @@
-"""How far what is drawn along edges strays from the true map: a point of a diffuse triangle's plane is drawn where its
-true image is not, or shows what is truly seen elsewhere. Divided by the true map's derivative that is pixels.
+"""Deviation of drawn edges from the true reflection map, in pixels.
+
+A drawn edge shows a point of a diffuse triangle's plane beside its true image. The offset between the point drawn and
+the point truly seen there, divided by the true map's derivative, is that displacement in pixels.
 """
 from __future__ import annotations
 
@@ -15,23 +17,24 @@ STRETCH = 4.0
 
 def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.ndarray, column: np.ndarray,
              shown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """What is drawn at (u, v) `uv` (2, e) of mirror faces `face` (e,) beside what the true map has there.
+    """Compare drawn points with the points that the true map shows at the same places on the mirror.
 
-    Near a caustic the picture of a point is drawn out in one direction, and a shift in that direction shows
-    nothing: none counts for more than `STRETCH` times the pixels it would be where the picture is drawn out least.
+    Near a caustic the image is stretched in one direction, and a shift in that direction is invisible: `error` is at
+    most `STRETCH` times the pixels that the shift would be along the least stretched direction.
 
     Parameters
     ----------
-    column : (e,) int64, of the `frames`: the diffuse triangle that is drawn
-    shown : (3, e) float64, the point of it that is drawn there
+    face : (e,) int64, mirror face of each place
+    uv : (2, e) float64, its coordinates (u, v) in that face
+    column : (e,) int64, column in the `frames` of the diffuse triangle that is drawn there
+    shown : (3, e) float64, point of that triangle's plane that is drawn there
 
     Returns
     -------
-    drift, error : (e,) float64
-        Pixels between the place where `shown` is drawn and where it is truly seen, and as much of them as an eye could
-        tell inside a face.
-    point : (3, e) float64, what is truly seen there
-    s : (e,) float64, how far along its ray
+    drift : (e,) float64, pixels between the place where `shown` is drawn and its true image
+    error : (e,) float64, the part of `drift` that is visible inside a face, in pixels
+    point : (3, e) float64, point of the triangle's plane that is truly seen there
+    s : (e,) float64, its ray parameter
     """
     parts = [_straying(cameras, frames, face[part], uv[:, part], column[part], shown[:, part])
              for part in portions(max(len(column), 1), EDGES_AT_ONCE)]
@@ -41,7 +44,7 @@ def straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.nda
 
 def _straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.ndarray, column: np.ndarray,
               shown: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """`straying`, of so many as fit the cache."""
+    """Compute `straying` for a portion that fits the cache."""
     mirror_map = cameras.mirror_map
     origin, ray, moves = mirror_map.linearise(face, uv, *ALONG_UV)
     base, first, second, normal = (columns(row, column) for row in
@@ -68,7 +71,7 @@ def _straying(cameras: Cameras, frames: SceneFrames, face: np.ndarray, uv: np.nd
 
 
 def _solve(a, b, c, d, right_x, right_y):
-    """x, y with a x + b y = right_x and c x + d y = right_y; zero where a, b, c and d are."""
+    """Solve a x + b y = right_x, c x + d y = right_y for x and y; both are zero if a, b, c and d are."""
     straight, crossed = a * d, b * c
     determinant = straight - crossed
     # a map that rounding cannot tell from singular moves far, but not infinitely far

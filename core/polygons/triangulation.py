@@ -20,7 +20,7 @@ class Faces(ColumnArrays):
     nodes : (f, 3) int64
     camera : (f,) int64
     column : (f,) int64, of the diffuse triangle in the frames
-    on_scene_edge : (f, 3) bool, whether the edges 01, 12, 20 are images of the diffuse triangle's own edges
+    on_scene_edge : (f, 3) bool, True for edges 01, 12, 20 that are images of the diffuse triangle's own edges
     """
 
     counting_axis = 0
@@ -30,12 +30,12 @@ class Faces(ColumnArrays):
     on_scene_edge: np.ndarray
 
     def split(self, middle: np.ndarray) -> tuple[Faces, np.ndarray]:
-        """Faces split at the nodes `middle` (f, 3) of their edges, -1 for none.
+        """Split faces at the nodes `middle` (f, 3) of their edges, -1 for none.
 
         Returns
         -------
         children : Faces
-        whole : (m, 3) bool, which of their edges are whole edges of their parents
+        whole : (m, 3) bool, True for edges of the children that are entire edges of their parents
         """
         parent, local = split(middle >= 0)
         six = np.concatenate((self.nodes, middle), axis=1)[parent]
@@ -48,7 +48,7 @@ class Faces(ColumnArrays):
 
 
 def connect(polygons: Polygons, node_of: np.ndarray, pixels: np.ndarray) -> Faces:
-    """Fans of faces over the polygons, each fan from the corner that gives the least skinny faces.
+    """Triangulate the polygons as fans, each from the corner that gives the least skinny faces.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from ..support import breathe
 from ..trees import Cones
 
 SAME_IMAGE = 1e-3  # pixels: closer images of one vertex are one image, found from both sides of a shared edge
-ROWS = 2.0**20  # of the picture and beyond, as high as that; what lies farther out is taken together
+ROWS = 2.0**20  # rows of `NEAR_IMAGE` pixels above and below the picture's origin; images beyond share the last row
 NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a vertex from its image
 
 
@@ -36,9 +36,16 @@ class VertexImages(ColumnArrays):
     pixel: np.ndarray
 
     def nearest(self, vertex: np.ndarray, camera: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-        """Index of the image within `NEAR_IMAGE` pixels that a guess (vertex, camera, pixel), n of each, means: one in
-        the same camera before one in a neighbouring camera, else -1."""
-        # a crumpled mirror shows a vertex thousands of times: only rows of the picture that come near are looked at
+        """Return the index (n,) of the image that is nearest to each guess, -1 if none is within `NEAR_IMAGE` pixels.
+
+        Images in the same camera come before those in other cameras.
+
+        Parameters
+        ----------
+        vertex, camera : (n,) int64, of the guesses
+        pixel : (2, n) float64
+        """
+        # a crumpled mirror shows a vertex thousands of times: compare only images in nearby rows of the picture
         rows_of, asked = (np.floor(np.clip(spots[1] / NEAR_IMAGE, -ROWS, ROWS)) for spots in (self.pixel, pixel))
         key, wanted = (of * 4.0 * ROWS + row for of, row in ((self.vertex, rows_of), (vertex, asked)))
         breathe()
@@ -64,7 +71,7 @@ class VertexImages(ColumnArrays):
 
 
 def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
-    """Images of the vertices of the candidate triangles, each in the cameras that it is a candidate of.
+    """Compute the images of the candidate triangles' vertices, each in the cameras of its candidates.
 
     Returns
     -------
@@ -87,13 +94,15 @@ def vertex_images(candidates: Candidates) -> tuple[VertexImages, dict]:
 
 def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
                     vertex: np.ndarray) -> tuple[VertexImages, dict, np.ndarray]:
-    """Images in pairs of a camera and a vertex, not sorted; what lies on a shared edge comes from both its sides.
+    """Compute the images in pairs of a `camera` (k,) and a `vertex` (k,), not sorted.
+
+    An image on an edge that two cameras share is found in both.
 
     Returns
     -------
     images : VertexImages
     counts : dict, pairs solved, roots found
-    pair : (n,) int64, the pair that each image was found in
+    pair : (n,) int64, index of the pair that each image was found in
     """
     view, mirror_map = cameras.view, cameras.mirror_map
     corners = cameras.corners[camera]
@@ -113,8 +122,10 @@ def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
 
 
 def repeated(vertex: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-    """Which images, each of a `vertex` (n,) at a `pixel` (n, 2) and sorted by vertex, repeat an earlier one: those on a
-    shared edge or mirror vertex."""
+    """Return True for images that repeat an earlier one: those on an edge or a vertex that cameras share.
+
+    `vertex` (n,) of the images are sorted; `pixel` (n, 2) are their places in the picture.
+    """
     again = np.zeros(len(vertex), dtype=bool)
     for gap in range(1, 9):
         same = np.flatnonzero(vertex[gap:] == vertex[:-gap]) + gap

@@ -1,4 +1,4 @@
-"""What comes out: the reflection mesh, its discs, where it is drawn, and in whose numbers it is told.
+"""Results: the reflection mesh, its discs, its placement in space, and the order of the given meshes.
 
 In come faces on nodes, or discs, in the method's own order; out come arrays in world space and in the order of the
 meshes that were given.

@@ -1,4 +1,4 @@
-"""Discs: what a result of points knows of the pieces of surface that its points stand for."""
+"""Discs: the pieces of surface that the points of a result represent."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Discs:
-    """What a result of points (n) knows beside `ReflectionMesh`'s own arrays.
+    """Attributes of the points (n) of a result of the method POINTS, besides the arrays of `ReflectionMesh`.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Results in the numbers of the meshes that were given, not of those in canonical order that the method works on."""
+"""Renumbering of results: from meshes in canonical order, which the method works on, to the meshes that were given."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -10,7 +10,7 @@ from .reflection_mesh import ReflectionMesh
 
 
 def in_given_order(result: ReflectionMesh, scene: Order, mirror: Order) -> ReflectionMesh:
-    """The result of ordered meshes, in the numbers of the meshes that were given."""
+    """Renumber the result of ordered meshes to the indices of the meshes that were given."""
     back = TURNS[-scene.first[result.source_face] % 3]
     discs = result.discs
     if discs is not None:

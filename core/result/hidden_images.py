@@ -1,7 +1,7 @@
-"""Images that nearer ones hide: of a point that a mirror shows several times, the eye may see some of its images only.
+"""Hidden images: if a mirror shows a point several times, the eye may see only some of its images.
 
-The mirror images of all faces, each as far behind the mirror as its way is long, are drawn into a z-buffer; what a
-piece of a face shows is hidden where the plane of another face that a pixel shows is nearer than its own.
+The virtual images of all faces, each as far behind the mirror as its path is long, are drawn into a z-buffer. A piece
+of a face is hidden where the plane of the face that a pixel shows is nearer than its own plane.
 """
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .placement import place
 from .reflection_mesh import ReflectionMesh
 
 AT_ONCE = 1 << 15   # pieces
-NEARER = 1e-3   # share of a distance: what touches hides nothing
-INWARDS = 0.8   # of the way from a piece's middle to its corners: on its border neighbours begin
+NEARER = 1e-3   # share of a distance: surfaces that touch do not hide one another
+INWARDS = 0.8   # share of the distance from a piece's middle to its corners: test points keep off its border
 
 
 @dataclass(frozen=True)
 class FrontImages:
-    """What each pixel shows of a reflection, and how near all of its m faces are, which is linear in the picture.
+    """Frontmost face of a reflection at each pixel, and the nearness of all its m faces, linear in the picture.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class FrontImages:
     plane : (m, 3) float64, coefficients of x, y and 1 in pixels
     nearness : (m, 3) float64
         Of the faces' corners: the inverse distance, or, in orthographic views, what is left of the longest one.
-    several : (m,) bool, whether the triangle of the scene that a face shows has other images
+    several : (m,) bool, True if the scene triangle that a face shows has other images
     """
 
     width: int
@@ -62,13 +62,19 @@ class FrontImages:
         return cls(*view.resolution, front, plane.T, nearness, _several(mesh.source_face, image))
 
     def hidden(self, face: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-        """Whether nearer faces hide the middle of pieces and what lies before each of their corners, (k, 4) bool, of
-        triangles of the scene that have several images; what is beside the picture is as the middle is.
+        """Test whether nearer faces hide the middle of pieces, and a point before each of their three corners.
+
+        Only pieces of scene triangles with several images are tested. A point outside the picture gets the result of
+        the middle.
 
         Parameters
         ----------
-        face : (k,) int64, that each piece is a part of
-        pixels : (k, 3, 2) float64, where its corners are seen
+        face : (k,) int64, face that each piece is a part of
+        pixels : (k, 3, 2) float64, of its corners
+
+        Returns
+        -------
+        (k, 4) bool, True where hidden: the middle, then the corners
         """
         hidden = np.zeros((len(face), 4), dtype=bool)
         asked = np.flatnonzero(self.several[face])
@@ -78,7 +84,7 @@ class FrontImages:
         return hidden
 
     def _hidden(self, face: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-        """The same of pieces all of which are asked."""
+        """Test pieces as `hidden` does, all of them of scene triangles with several images."""
         middle = pixels.mean(axis=1, keepdims=True)
         spots = np.concatenate((middle, middle + INWARDS * (pixels - middle)), axis=1)
         column, row = np.moveaxis(np.floor(spots).astype(np.int64), 2, 0)
@@ -90,8 +96,10 @@ class FrontImages:
         return np.where(inside, behind, behind[:, :1])
 
     def _nearness(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
-        """How near faces (k, n) are at `spots` (k, n, 2), no nearer and no farther than their corners; no number where
-        a face is seen edge on."""
+        """Return the nearness (k, n) of each `face` (k, n) at `spots` (k, n, 2) in pixels; NaN for faces seen edge on.
+
+        It is clamped to the range of the face's corners.
+        """
         plane, corners = self.plane[face], self.nearness[face]
         with np.errstate(invalid="ignore"):
             found = (plane[..., :2] * spots).sum(axis=2) + plane[..., 2]
@@ -99,7 +107,7 @@ class FrontImages:
 
 
 def _several(source: np.ndarray, image: np.ndarray) -> np.ndarray:
-    """Which faces (m,) show triangles of the scene that have more than one image."""
+    """Return True for faces (m,) whose scene triangle `source` (m,) has more than one `image` (m,)."""
     count = int(source.max(initial=-1)) + 1
     low, high = np.full(count, len(image)), np.full(count, -1)
     np.minimum.at(low, source, image)

@@ -29,7 +29,7 @@ AT_ONCE = 1 << 15  # pieces
 
 @dataclass(frozen=True)
 class PicturePieces(ColumnArrays):
-    """Pieces of the triangles of a diffuse scene, and where the eye sees them in the mirror.
+    """Pieces of the triangles of a diffuse scene, with their places in the picture of the mirror.
 
     Attributes
     ----------
@@ -38,11 +38,11 @@ class PicturePieces(ColumnArrays):
     weights : (k, 3, 3) float64
         Barycentric coordinates of the piece's corners in it.
     pixels : (k, 3, 2) float64
-        Where the eye sees the corners, in pixels from the picture's lower left corner, right and up.
+        Images of the corners, in pixels from the picture's lower left corner, right and up.
     image : (k,) int64
-        Which image the piece belongs to: one that hangs together and is nowhere turned over, 0 the largest in the
-        picture; what nearer things hide comes after all that is seen. A point that is seen several times lies in
-        pieces of several images.
+        Number of the image that the piece belongs to. An image is connected and has one parity; 0 is the largest in the
+        picture, and hidden pieces have higher numbers than all visible ones. A point that is seen several times lies
+        in pieces of several images.
 
     Examples
     --------
@@ -63,10 +63,10 @@ class PicturePieces(ColumnArrays):
     image: np.ndarray
 
     def holding(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """Piece (n,) of the largest image that holds points of the scene; -1 where none does.
+        """Find the piece (n,) of the largest image that contains each point of the scene; -1 if there is none.
 
-        A triangle that is seen edge on is known badly there: of two pieces of one image that hold a point, that counts
-        whose part of the triangle is larger in the picture.
+        Of two pieces of one image that contain a point, the one is taken that is more magnified in the picture: places
+        on a triangle that is seen edge on are imprecise.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class PicturePieces(ColumnArrays):
 
 
 def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING) -> PicturePieces:
-    """The pieces of the scene that `mesh` shows, small enough for their places in the picture to be linear on them.
+    """Split the faces of `mesh` into pieces small enough for their places in the picture to be linear on them.
 
     Parameters
     ----------
@@ -144,9 +144,9 @@ def picture_pieces(view: View, mesh: ReflectionMesh, straying: float = STRAYING)
 
 
 def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
-    """The image (m,) that each face belongs to, the largest first."""
+    """Number the connected images of one parity, the largest first; return the number (m,) for each face."""
     parity = np.sign(mesh.image_parity[mesh.triangles].sum(axis=1, dtype=np.int64))
-    # images that are turned over against each other meet in vertices on their caustic
+    # separate vertices by parity: images of opposite parity meet in vertices on their caustic
     _, vertex = distinct((mesh.triangles * 3 + (parity[:, None] + 1)).ravel())
     part = connected(vertex.reshape(-1, 3))
     breathe()
@@ -157,13 +157,16 @@ def _images(view: View, mesh: ReflectionMesh) -> np.ndarray:
 
 
 def _in_picture(pixels: np.ndarray, view: View) -> np.ndarray:
-    """Which triangles (k,) the picture may show; those that are on both sides of the eye have no place in it."""
+    """Return True for triangles with corners at `pixels` (k, 3, 2) that may reach into the picture.
+
+    Triangles with a corner behind the eye have no finite pixels and are outside.
+    """
     return (np.isfinite(pixels).all(axis=(1, 2)) & (pixels.max(axis=1) > 0.0).all(axis=1)
             & (pixels.min(axis=1) < view.resolution).all(axis=1))
 
 
 def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
-    """Places (..., 2) in the picture of homogeneous ones (..., 4), none of what is not before the eye."""
+    """Convert clip coordinates (..., 4) to pixels (..., 2); NaN for points that are not before the eye."""
     found = np.empty((*clip.shape[:-1], 2))
     for part in portions(len(clip), AT_ONCE):
         depth = np.where(clip[part, ..., 3:] > 0.0, clip[part, ..., 3:], np.nan)
@@ -172,14 +175,23 @@ def _pixels(clip: np.ndarray, view: View) -> np.ndarray:
 
 
 def _straying(depth: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-    """Pixels (k, 3) between the middles of the edges 01, 12, 20 as they are seen and those of their pictures, of
-    triangles with corners at `pixels` (k, 3, 2) that lie at a `depth` (k, 3)."""
+    """Return the error (k, 3), in pixels, of linear interpolation at the middles of the edges 01, 12, 20 of triangles.
+
+    It is the distance between the image of an edge's middle and the middle of the edge's image, for triangles with
+    corners at `pixels` (k, 3, 2) and depths `depth` (k, 3).
+    """
     other = following(depth)
     return 0.5 * np.abs(other - depth) / (other + depth) * edge_lengths(pixels)
 
 
 def _children(corners: np.ndarray, parent: np.ndarray, local: np.ndarray) -> np.ndarray:
-    """What the corners of the parts of triangles have, from what (k, 3, c) those of the triangles have."""
+    """Interpolate values at `corners` (k, 3, c) of triangles to the corners of their parts.
+
+    Parameters
+    ----------
+    parent : (n,) int64, triangle of each part
+    local : (n, 3) int64, its corners: 0 to 2 for the triangle's corners, 3 to 5 for the middles of its edges
+    """
     found = np.empty((*local.shape, corners.shape[2]))
     for part in portions(len(parent), AT_ONCE):
         own = corners[parent[part]]

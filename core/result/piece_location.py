@@ -6,13 +6,13 @@ import numpy as np
 from ..geometry import between, distinct, in_order, ranges
 from ..support import breathe
 
-TOUCHING = 1e-9     # of a barycentric coordinate: what a point on an edge may be off by
-FLAT = 1e-15        # of a triangle's area: what is smaller has none but by rounding, and holds nothing
+TOUCHING = 1e-9     # tolerance of barycentric coordinates for points on an edge
+FLAT = 1e-15        # share of a triangle's area: smaller pieces are degenerate and contain no point
 
 
 def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray
             ) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of points and pieces that hold them, as indices (p,) and (p,).
+    """Find pairs of points and pieces that contain them, as indices (p,) of points and (p,) of pieces.
 
     Parameters
     ----------
@@ -31,7 +31,10 @@ def holders(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np
 
 
 def _held(corners: np.ndarray, area: np.ndarray, piece: np.ndarray, spot: np.ndarray) -> np.ndarray:
-    """Which spots (2, n) lie in the pieces (n,) of `corners` (k, 3, 2), whose doubled areas are `area` (k,)."""
+    """Return True for each `spot` (2, n) that lies in its `piece` (n,).
+
+    The pieces have `corners` (k, 3, 2) and doubled areas `area` (k,).
+    """
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, corner].T for corner in range(3))
     breathe()
     x, y = spot[0] - x0[piece], spot[1] - y0[piece]
@@ -43,9 +46,17 @@ def _held(corners: np.ndarray, area: np.ndarray, piece: np.ndarray, spot: np.nda
 
 
 def _near(owner: np.ndarray, corners: np.ndarray, face: np.ndarray, points: np.ndarray) -> tuple:
-    """Pairs of points (n, 2) and pieces with `corners` (k, 3, 2) of the same triangle, `face` and `owner`, among them
-    all in which the piece holds the point: each triangle has a grid of about as many cells as it has pieces, whose rows
-    and columns have as many corners each, since pieces crowd where the mirror shows a place large."""
+    """Find pairs of points and pieces of the same triangle whose bounding box contains the point.
+
+    Each triangle has a grid of about as many cells as it has pieces. Its rows and columns hold equal numbers of
+    corners, since pieces are dense where the mirror magnifies.
+
+    Parameters
+    ----------
+    owner, face : (k,) and (n,) int64, triangle of each piece, and of each point
+    corners : (k, 3, 2) float64, of the pieces
+    points : (n, 2) float64
+    """
     _, both = distinct(np.concatenate((owner, face)))
     owner, face = both[:len(owner)], both[len(owner):]
     number = np.bincount(owner, minlength=int(both.max()) + 1)

@@ -18,14 +18,14 @@ DEPTH = 2e-3  # share of the viewing distance over which the layers spread
 
 def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: str, reach: float = 0.0,
           share: float = 1.0) -> np.ndarray:
-    """World positions (3, n) of nodes seen at `places` (3, n).
+    """Compute world positions (3, n) at which to draw nodes that are seen at `places` (3, n) on the mirror.
 
     Parameters
     ----------
-    path_length : (n,) float64, of the whole way behind the mirror, in scene units
+    path_length : (n,) float64, from the mirror to the reflected point over all bounces, in scene units
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
     reach : float, length of a path over which the layers of an orthographic view spread at least
-    share : float, how much of `GAP` and `DEPTH` LAYERED uses
+    share : float, factor on `GAP` and `DEPTH` for LAYERED
     """
     if placement == "SURFACE" or not len(path_length):
         return places

@@ -1,4 +1,4 @@
-"""How mirrors must stand to show what they show, by the law of reflection."""
+"""Normals that a mirror must have to show given points at given places, by the law of reflection."""
 from __future__ import annotations
 
 import numpy as np

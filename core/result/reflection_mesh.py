@@ -10,7 +10,7 @@ from ..support import breathe
 from ..views import View
 from .discs import Discs
 
-ON_SIDE = 1e-6  # of a triangle: what lies nearer to its side lies on it
+ON_SIDE = 1e-6  # barycentric coordinate: a corner that is nearer to a side lies on it
 OF_FACES = ("source_face", "source_weights", "mirror_face", "bounces", "map_face", "later_mirrors")
 OF_VERTICES = ("positions", "reflected_position", "mirror_position", "path_length", "image_parity", "mirror_normals")
 
@@ -149,7 +149,7 @@ class ReflectionMesh:
         view : View
             The eye that the result was made for.
         """
-        assert self.mirror_normals is not None  # of faces
+        assert self.mirror_normals is not None  # only results of points have none
         sight, found = unit(view.directions(self.mirror_position).T), []
         for normal in np.moveaxis(self.mirror_normals, (1, 2), (0, 1)):
             breathe()
@@ -159,11 +159,11 @@ class ReflectionMesh:
         return np.stack(found, axis=1)
 
     def of_faces(self, face: np.ndarray) -> dict:
-        """What faces (k,) know, by name, but for their `triangles`."""
+        """Return the attributes of the faces `face` (k,), by name, except `triangles`."""
         return self._chosen(OF_FACES, face)
 
     def of_vertices(self, vertex: np.ndarray) -> dict:
-        """What vertices (k,) know, by name."""
+        """Return the attributes of the vertices `vertex` (k,), by name."""
         return self._chosen(OF_VERTICES, vertex)
 
     def _chosen(self, names: tuple[str, ...], chosen: np.ndarray) -> dict:
@@ -182,5 +182,5 @@ class ReflectionMesh:
 
 def filled_share(counts: dict[str, int]) -> float:
     """Share of the mirror's pixels that rays filled, in %, as a reflection's counts tell it."""
-    # what two bounces show in one pixel counts twice
+    # a pixel that rays fill at two bounces counts twice, so limit the share
     return min(100.0, 100.0 * counts.get("filled_pixels", 0) / max(counts.get("mirror_pixels", 0), 1))

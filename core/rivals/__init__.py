@@ -1,8 +1,8 @@
-"""What the method is compared with: every rival a room of its own, on the parts of the method that the talk shares.
+"""Baselines that the method is compared with, one module each, on the primary hits that all of them share.
 
-The method does not know of its rivals: nothing but the tools, the benchmark and the comparisons of `addon` may import
-it. In come a view, meshes and a value of a method's knob; out comes what it shows at each pixel's centre, and what that
-took.
+The method does not depend on its baselines: only the tools, the benchmark and the comparisons of `addon` may import
+them. In come a view, meshes and a value of the baseline's parameter; out come the point seen at each pixel's centre,
+and the cost.
 """
 from __future__ import annotations
 

@@ -17,8 +17,8 @@ from .rival_picture import NOTHING, RivalPicture, Work
 from .textures import Texture, looked_up, texture_of
 
 FLAT = 0.02  # thickness over extent below which an object lies in its own plane
-MARGIN = 1.02  # of a picture beyond its object
-NEAR = 2.0  # radii: nearer to the mirror's centre the picture is taken in parallel, since a lens would have to gape
+MARGIN = 1.02  # size of a billboard's picture relative to its object
+NEAR = 2.0  # radii: pictures of objects nearer to the mirror's centre are orthographic, to avoid huge fields of view
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ def clustered(view: View, mirror: TriangleMesh, scene: TriangleMesh, tile: int, 
 
 
 def _clusters(hits: PrimaryHits, tile: int, width: int) -> tuple[np.ndarray, np.ndarray]:
-    """Order of the rays that brings those of a cluster together, and where each cluster begins."""
+    """Return the order (n,) that sorts rays by cluster, and the start (c,) of each cluster in it."""
     keys = [hits.face]
     if tile:
         keys += [hits.pixel % width // tile, hits.pixel // width // tile]
@@ -63,7 +63,7 @@ class _Met:
 
     def first(self, hits: PrimaryHits, order: np.ndarray, start: np.ndarray,
               work: Work) -> tuple[np.ndarray, np.ndarray]:
-        """Distance and triangle of the first hit of each ray in `order` (n,), of which clusters begin at `start`."""
+        """Find distance (n,) and triangle (n,) of the first hit of the rays `order` (n,); clusters begin at `start`."""
         place, ray = hits.place[:, order], hits.ray[:, order]
         cluster, triangle, visited = self.tree.trace(cones_around(place, ray, start))
         work.count(traversals=len(start), nodes=visited, rays=len(order))

@@ -33,8 +33,18 @@ class DrawnMesh:
 
     def seen(self, view: View, mirror_depth: np.ndarray,
              scene_depth: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What the pixels' centres of a view show of it, whose depths of mirror and scene are given: pixels (n,) along
-        the rows, triangles (n,) of the diffuse scene, and the points on them (3, n)."""
+        """Find the pixels of a view whose centres show this mesh.
+
+        Parameters
+        ----------
+        mirror_depth, scene_depth : (height, width) float64, depths of the mirror and of the scene in the view
+
+        Returns
+        -------
+        pixel : (n,) int64, row times width plus column
+        triangle : (n,) int64, of the diffuse scene
+        point : (3, n) float64, point of the diffuse scene
+        """
         drawn = draw(view, self.positions, self.triangles)
         mirror, scene = mirror_depth.ravel(), scene_depth.ravel()
         shown = (drawn.triangle >= 0) & (mirror < scene) if self.stencilled else drawn.depth < np.minimum(mirror, scene)

@@ -15,32 +15,34 @@ from .scenes import quartered, tessellated
 
 UNREFINED = 1e9  # pixels: no displacement is larger, and nothing is split
 DEFAULT = 0.5  # pixels
-SIDES = 6  # of the polygon that stands for a disc
+SIDES = 6  # sides of the polygon that approximates a disc
 
 
 def refined(view: View, mirror: TriangleMesh, scene: TriangleMesh, tolerance: float, hits: PrimaryHits) -> RivalPicture:
-    """The general three-ray camera with refinement to a tolerance in pixels."""
+    """Draw the general three-ray camera with refinement to a `tolerance` in pixels."""
     work = Work()
     return _drawn(view, reflect(view, mirror, scene, Settings(tolerance)), None, hits, work)
 
 
 def unrefined(view: View, mirror: TriangleMesh, scene: TriangleMesh, times: int, hits: PrimaryHits) -> RivalPicture:
-    """The general three-ray camera without refinement, on a mirror whose triangles were quartered `times` times."""
+    """Draw the general three-ray camera without refinement, on a mirror with triangles quartered `times` times."""
     work = Work()
     finer = quartered(mirror, times)
     return _drawn(view, reflect(view, finer, scene, Settings(UNREFINED)), None, hits, work)
 
 
 def parallel(view: View, mirror: TriangleMesh, scene: TriangleMesh, times: int, hits: PrimaryHits) -> RivalPicture:
-    """The parallel three-ray camera, on a mirror whose triangles were quartered `times` times."""
+    """Draw the parallel three-ray camera, on a mirror whose triangles were quartered `times` times."""
     work = Work()
     finer = quartered(mirror, times)
     return _drawn(view, reflect(view, finer, scene, Settings(DEFAULT, method="PARALLEL")), None, hits, work)
 
 
 def points(view: View, mirror: TriangleMesh, scene: TriangleMesh, vertices: int, hits: PrimaryHits) -> RivalPicture:
-    """Every image of about `vertices` points of the diffuse surface, of its own vertices where these are as many, as a
-    flat disc."""
+    """Draw all images of about `vertices` points of the diffuse surface as flat discs.
+
+    The points are the scene's own vertices if these are as many.
+    """
     work = Work()
     own = scene, np.arange(len(scene.triangles))
     finer, source = own if vertices <= len(scene.positions) else tessellated(scene, vertices)
@@ -51,13 +53,13 @@ def points(view: View, mirror: TriangleMesh, scene: TriangleMesh, vertices: int,
 
 
 def drawn_mesh(view: View, mesh: ReflectionMesh, hits: PrimaryHits) -> RivalPicture:
-    """What a reflection mesh shows."""
+    """Draw a reflection mesh as a picture."""
     return _drawn(view, mesh, None, hits, Work())
 
 
 def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hits: PrimaryHits,
            work: Work) -> RivalPicture:
-    """The picture of a mesh, or of discs where `triangle_of` tells the scene's triangle of each vertex."""
+    """Draw a mesh, or its discs if `triangle_of` (v,) gives the scene triangle of each scene vertex."""
     work.done("reflection")
     work.seconds.pop("reflection")
     work.seconds.update(mesh.seconds)

@@ -20,7 +20,7 @@ LONGEST = 2.0  # steps of the grid of rays: longer edges of virtual triangles ar
 SHORTEST = 4.0  # pixels: no edge is split that is shorter
 UNSEEN = 4.0  # times longer may an edge be where no ray passes through either of its ends
 SEEN = 1.5  # steps of the grid between a vertex and its ray up to which the mirror is taken to show it
-BEYOND = 2.0  # how far from its ray a vertex is placed
+BEYOND = 2.0  # steps of the grid: largest distance from its ray at which a vertex is placed
 MOST = 400_000  # triangles
 
 
@@ -52,13 +52,13 @@ def morphed(view: View, mirror: TriangleMesh, scene: TriangleMesh, wanted: int, 
         more = rays.search(added, work)
         positions = np.concatenate((positions, added))
         pixels, virtual, seen = (np.concatenate(parts) for parts in zip((pixels, virtual, seen), more))
-        # what no ray comes near to anywhere needs no finer triangles
+        # drop triangles that no ray comes near to: they need no further splitting
         kept = seen[triangles].any(axis=1) | (_spread(pixels, triangles) > UNSEEN * longest)
         triangles, source = triangles[kept], source[kept]
     work.done("search")
     kept = seen[triangles].any(axis=1)
     if rounds:
-        # what no splitting brings together lies on both sides of a tear in the reflection
+        # drop triangles that stay large: their corners lie on both sides of a discontinuity of the reflection
         kept &= seen[triangles].all(axis=1) | (_spread(pixels, triangles) <= UNSEEN * longest)
     triangles, source = triangles[kept], source[kept]
     shown = DrawnMesh(virtual, triangles, source, positions, stencilled=True)
@@ -92,8 +92,14 @@ class _Rays:
         self.pyramid = RayPyramid.build(self.index, self.places, self.rays)
 
     def search(self, points: np.ndarray, work: Work) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of points (v, 3): where in the picture they are seen (v, 2), their virtual places (v, 3), and whether a ray
-        of the mirror passes through them at all, or only near."""
+        """Find the images of `points` (v, 3) by the ray that passes nearest to each.
+
+        Returns
+        -------
+        pixels : (v, 2) float64
+        virtual : (v, 3) float64, places of the virtual images
+        seen : (v,) bool, True if a ray of the mirror passes through the point, False if rays only pass near it
+        """
         count = len(points)
         ray, visited = self.pyramid.nearest(points.T)
         work.count(traversals=count, projections=count, nodes=visited)
@@ -113,8 +119,11 @@ class _Rays:
         return pixels.T, origins + length[:, None] * directions, seen
 
     def _change(self, ray: np.ndarray, lines: int, columns: int) -> tuple[np.ndarray, np.ndarray]:
-        """How place and direction (3, v) of the rays change from one sample to the next: from both neighbours, or from
-        the one that there is; zero where there is none."""
+        """Return the change (3, v) of place, and of direction, of each `ray` (v,) from one sample to the next.
+
+        `lines` and `columns` give the direction on the grid. Differences are central, one-sided if only one neighbour
+        exists, and zero if there is none.
+        """
         line, column = self.cell[ray] // self.columns, self.cell[ray] % self.columns
         ends = []
         for sign in (1, -1):

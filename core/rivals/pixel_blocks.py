@@ -16,14 +16,14 @@ Cast = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def cast_by_blocks(hits: PrimaryHits, block: int, cast: Cast) -> tuple[np.ndarray, np.ndarray]:
-    """What all rays (n) of the primary hits meet.
+    """Trace one ray per block of pixels, and interpolate or trace the others (n rays of the primary hits in all).
 
     Parameters
     ----------
     block : int
-        1 traces every ray.
+        Pixels along the side of a block; 1 traces every ray.
     cast : callable
-        From indices (m,) of rays to the triangle (m,) that each meets and where, (3, m).
+        Takes indices (m,) of rays; returns the triangle (m,) that each meets, and the point (3, m).
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What the eye sees of the mirror: given to every rival alike, timed and counted apart from them."""
+"""Primary hits: the points of the mirror that the eye sees, shared by all baselines; their cost is counted apart."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from ..views import View, draw
 from .rival_picture import Work
 from .tracing import cones_around
 
-ABOVE = 1e-9  # of the mirror's size: what rises less above a plane touches it by rounding
-TOUCHING = 1e-7  # of a mesh's size: a hit nearer than this is the surface that the ray starts on
+ABOVE = 1e-9  # share of the mirror's size: a corner that rises less above a plane touches it by rounding
+TOUCHING = 1e-7  # share of a mesh's size: a hit nearer than this is the surface that the ray starts on
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,12 @@ class PrimaryHits:
 
 
 def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> PrimaryHits:
-    """Where the rays from the eye through the pixels' centres first hit the mirror, by a z-buffer.
+    """Find the first hits on the mirror of the rays from the eye through the pixels' centres, by a z-buffer.
 
     Raises
     ------
     ReflectionError
-        Where no pixel shows the mirror, or there is nothing to be reflected.
+        If no pixel shows the mirror, or the scene has no faces with an area.
     """
     work = Work()
     width, height = view.resolution
@@ -86,7 +86,7 @@ def primary_hits(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Prima
 
 
 def eye_depths(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
-    """`mirror_depth` and `scene_depth` of the primary hits alone."""
+    """Compute `mirror_depth` and `scene_depth` of `PrimaryHits`, (height, width) each, without the hits."""
     width, height = view.resolution
     mirror_depth, scene_depth = (draw(view, mesh.positions, mesh.triangles).depth.reshape(height, width)
                                  for mesh in (mirror, scene))
@@ -94,14 +94,17 @@ def eye_depths(view: View, mirror: TriangleMesh, scene: TriangleMesh) -> tuple[n
 
 
 def by_face(face: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Order (n,) that brings rays of one face together, the runs' starts (c,), and the face of each run."""
+    """Return the order (n,) that sorts rays by `face` (n,), the start (c,) of each run, and the face (c,) of each."""
     order = np.argsort(face, kind="stable")
     start = np.flatnonzero(np.diff(face[order], prepend=-1))
     return order, start, face[order[start]]
 
 
 def _may_meet_mirror(mirror: TriangleMesh, face: np.ndarray, place: np.ndarray, ray: np.ndarray) -> np.ndarray:
-    """Which rays (n,) leave a face over whose plane another triangle of the mirror rises within their cone."""
+    """Return True for rays (n,) that may meet the mirror again.
+
+    These leave a face with another mirror triangle above its plane, in the cone of the face's rays.
+    """
     order, start, owner = by_face(face)
     tree = SceneTree.build(mirror)
     run, triangle, _ = tree.trace(cones_around(place[:, order], ray[:, order], start))

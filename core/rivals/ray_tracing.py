@@ -33,7 +33,10 @@ def traced(view: View, mirror: TriangleMesh, scene: TriangleMesh, block: int, hi
 
 def behind_mirror(tree: BoxTree | None, hits: PrimaryHits, ray: np.ndarray, distance: np.ndarray,
                   work: Work) -> np.ndarray:
-    """Which rays (m,) meet the mirror before `distance` (m,); only those are traced that may meet it at all."""
+    """Return True for rays (m,) of the primary hits that meet the mirror before `distance` (m,).
+
+    Only rays that may meet the mirror are traced.
+    """
     hidden = np.zeros(len(ray), dtype=bool)
     asked = np.flatnonzero(hits.meets_mirror[ray])
     if tree is not None and len(asked):

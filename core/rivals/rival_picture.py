@@ -1,4 +1,4 @@
-"""What every rival hands back: what each pixel shows, what it cost by stage, and how much work was counted."""
+"""The result of a baseline: the point seen at each pixel, the time by stage, and counts of the work."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field

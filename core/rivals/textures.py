@@ -10,13 +10,14 @@ Texture = tuple[np.ndarray, np.ndarray]
 
 
 def texture_of(view: View, scene: TriangleMesh, chosen: np.ndarray | None = None) -> Texture:
-    """What `view` sees of the scene, or of its triangles `chosen`, without any mirror.
+    """Draw the scene, or its triangles `chosen`, as seen in `view` without any mirror.
 
     Returns
     -------
     triangle : (height, width) int64
-        -1 where nothing is seen.
+        Triangle at each pixel, -1 if there is none.
     position : (3, height, width) float64
+        Point on it, zero if there is none.
     """
     triangles = scene.triangles if chosen is None else scene.triangles[chosen]
     drawn = draw(view, scene.positions, triangles)
@@ -29,8 +30,10 @@ def texture_of(view: View, scene: TriangleMesh, chosen: np.ndarray | None = None
 
 
 def looked_up(texture: Texture, pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Triangle (n,) and position (3, n) at `pixels` (n, 2) of a texture: interpolated between four texels where all
-    show one triangle, else the nearest texel's."""
+    """Look up the triangle (n,) and the position (3, n) at `pixels` (n, 2) of a texture.
+
+    The position is interpolated between four texels if all show one triangle, else it is the nearest texel's.
+    """
     triangle, position = texture
     height, width = triangle.shape
     position = position.reshape(3, -1)

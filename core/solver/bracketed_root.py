@@ -11,7 +11,10 @@ step even at a triple root, or halve their bracket instead."""
 
 
 def bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: np.ndarray) -> np.ndarray:
-    """The root of each cubic (4, n) in [low, high], a part of [0, 1], where it is monotone and changes sign."""
+    """Find the root of each cubic `c` (4, n) in its bracket [low, high] within [0, 1].
+
+    The cubic is monotone in the bracket and changes sign there; `low_sign` (n,) is its sign at `low` (n,).
+    """
     c = _without_zeros(c)
     at_low, at_high = horner(c, low), horner(c, high)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -32,8 +35,10 @@ def bracketed_root(c: np.ndarray, low: np.ndarray, high: np.ndarray, low_sign: n
 
 
 def _bracketed_step(c, x, low, high, low_sign):
-    """One step of Halley's, or a halving where that leaves the bracket or, for want of slope, rests at an extremum;
-    narrows `low` and `high` in place. Also whether rounding still allows another step."""
+    """Take one step of Halley's method, or halve the bracket if the step leaves it or stalls at an extremum.
+
+    Narrows `low` and `high` (n,) in place. Returns the new x (n,), and True (n,) if rounding allows another step.
+    """
     value, slope, bend = derivatives(c, x)
     below = value * low_sign > 0.0
     np.copyto(low, x, where=below)
@@ -47,7 +52,7 @@ def _bracketed_step(c, x, low, high, low_sign):
 
 
 def _without_zeros(c: np.ndarray) -> np.ndarray:
-    """The cubics divided by s as often as they allow, which leaves no root at 0 for a bracket to end in."""
+    """Divide out the roots at 0 of cubics `c` (4, n), so that no bracket ends in one."""
     for _ in range(3):
         at = np.flatnonzero(c[0] == 0.0)
         if not len(at):

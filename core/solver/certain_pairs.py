@@ -32,7 +32,7 @@ _ROUND = 3.0 ** 0.5 + 2.0 ** -50
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
                    lengths_of: Callable[[np.ndarray, np.ndarray], np.ndarray]):
-    """Images in the pairs (n) of a camera and a point that leave no doubt.
+    """Compute the images in pairs (n) of a camera and a point, except in pairs that rounding leaves in doubt.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
     weights : (m, 3) float64
     sign : (m,) int8, of the cubic's derivative
     side : (m,) float64, positive where the rays leave on the side of the triangle's normal by its winding
-    doubtful : (n,) bool, pairs that were left out
+    doubtful : (n,) bool, True for pairs that were left out
     """
     still, moving = cubic.differences(vertices, rays, points)
     lengths = lengths_of(still, moving)
@@ -100,8 +100,13 @@ def certain_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray,
 
 
 def _margin(lengths: np.ndarray, t: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """By how much all three weights may be off at the root t, which is known to its `error`, times the square root of
-    the square of the normal; of `lengths` as from `own_lengths`."""
+    """Bound the error of all three weights at the root t (n,), times the length of the normal.
+
+    Parameters
+    ----------
+    lengths : (4, n) float64, as from `own_lengths`
+    error : (n,) float64, bound on the error of t
+    """
     x, e, r, d = lengths
     both = t * d
     both += e
@@ -116,26 +121,28 @@ def _margin(lengths: np.ndarray, t: np.ndarray, error: np.ndarray) -> np.ndarray
 
 
 def own_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
-    """Bounds (4, n) on |p|, on |a| and |b|, on |r|, and on |u| and |v|, from their largest coordinates; not a number
-    for pairs outside the limits."""
+    """Bound (4, n) |p|, |a| and |b|, |r|, |u| and |v| by their largest coordinates; NaN for pairs outside the limits.
+
+    `still` and `moving` (3, 3, n) are p, a, b and r, u, v, as from `cubic.differences`.
+    """
     lengths = np.empty((4, still.shape[2]))
     for (first, edges), part in zip((lengths[:2], lengths[2:]), (np.abs(still), np.abs(moving))):
         part[0].max(axis=0, out=first)
         part[1:].max(axis=(0, 1), out=edges)
     lengths *= _ROUND
-    # comparisons with what is not a number are false, so that it leaves every doubt
+    # NaN leaves a pair in doubt, since all comparisons with it are false
     lengths[:, ~(_ordinary(*lengths[:2]) & _ordinary(*lengths[2:]))] = np.nan
     return lengths
 
 
 def _ordinary(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Which lengths (n,), of places or of velocities, are neither too long nor too short nor too unlike."""
+    """Return True where two lengths (n,), of places or of velocities, are in range and of similar size."""
     longest, shortest = np.maximum(one, other), np.minimum(one, other)
     return (longest >= 1.0 / _LONGEST) & (longest <= _LONGEST) & (longest <= _UNLIKE * shortest)
 
 
 def common_lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
-    """The same (4, 1) for all pairs together, well inside the limits; or not numbers."""
+    """Bound the lengths of all pairs together (4, 1), as `own_lengths`; NaN unless well inside the limits."""
     parts = (still[0], still[1:], moving[0], moving[1:])
     lengths = np.array([[max(part.max(), -part.min())] for part in parts]) if still.size else np.ones((4, 1))
     lengths *= _ROUND

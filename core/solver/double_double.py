@@ -53,7 +53,7 @@ def _exact_sum(a: np.ndarray, b: np.ndarray) -> Number:
 
 
 def _short_sum(a: np.ndarray, b: np.ndarray) -> Number:
-    """The exact sum where |a| >= |b|."""
+    """Add a and b exactly, where |a| >= |b|."""
     total = a + b
     return total, b - (total - a)
 

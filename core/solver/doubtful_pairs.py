@@ -24,16 +24,26 @@ _ROUGH = 2.0 ** -30
 
 
 def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
-    """Images in pairs (n) of a camera and a point, as `certain_images` tells them, and which cubics vanish: (n,) bool.
+    """Compute the images in pairs (n) of a camera and a point, with error bounds for each pair alone.
 
-    What rounding cannot decide counts as equal.
+    Quantities that rounding cannot tell apart count as equal.
+
+    Parameters
+    ----------
+    vertices, rays : of the cameras' corners, pair after pair
+    points : of the pairs
+
+    Returns
+    -------
+    images : as `certain_images` returns them
+    degenerate : (n,) bool, True for cubics that rounding cannot tell from zero
     """
     still, moving = cubic.differences(vertices, rays, points)
     length, speed = cubic.scale(still, moving)
     still, moving = still * length, moving * speed
     lengths = cubic.lengths(still, moving)
     cubics, bounds = cubic.coefficients(still, moving), cubic.length_bounds(lengths)
-    # Where the cubic is so small beside the lengths that their bounds could hide it, closer ones are worth their price.
+    # Compute tighter, costlier bounds if all coefficients are so small that the bounds from lengths could hide them.
     small = np.flatnonzero((np.abs(cubics) < _HIDDEN * bounds).all(axis=0))
     if len(small):
         bounds[:, small] = cubic.term_bounds(still[:, :, small], moving[:, :, small])
@@ -62,16 +72,24 @@ def doubtful_images(vertices: np.ndarray, rays: np.ndarray, points: np.ndarray):
 
 
 def _drowned(size, bounds):
-    """Which cubics (n,) are worth twice the digits: those that may vanish, those of which a coefficient stands out of
-    the noise, but not by much, and those that are all small beside the noise of one that does not."""
+    """Return True for cubics (n,) that need double-double precision.
+
+    These are cubics that may vanish, cubics with a coefficient that exceeds its bound only a little, and cubics all of
+    whose coefficients are small beside the largest bound.
+
+    Parameters
+    ----------
+    size, bounds : (4, n) float64, absolute coefficients, and bounds on their errors
+    """
     known = size > bounds
     small = size.max(axis=0) < _BLURRED * bounds.max(axis=0)
     return small | ~known.any(axis=0) | (known & (size < _BLURRED * bounds)).any(axis=0)
 
 
 def _may_have_met(roots, cubics, bounds):
-    """Which roots lie beside a coefficient that counts as zero and are hardly known: they may have met the root that
-    went with it, at 0 or at infinity.
+    """Return True for imprecise roots beside a coefficient that counts as zero.
+
+    Such a root may coincide with the root that this coefficient would add, at 0 or at infinity.
 
     Between 0 and a root x of slope f', f rises to |f' x| / 4 or, from a double root at 0, to 4/27 of it: more than its
     bound B if the error 2 B / |f'| is below a quarter of x.
@@ -84,7 +102,15 @@ def _may_have_met(roots, cubics, bounds):
 
 
 def _images(still, moving, lengths, roots, distance):
-    """What `certain_images` returns of each image."""
+    """Return the images as `certain_images` does: pair, distance, weights, sign and side of each.
+
+    Parameters
+    ----------
+    still, moving : (3, 3, n) float64, places and velocities of all pairs
+    lengths : (6, n) float64, bounds on them
+    roots : Roots (m)
+    distance : (m,) float64, s at each root
+    """
     at, count = roots.cubic, still.shape[2]
     place, velocity = still.reshape(9, count).take(at, axis=1), moving.reshape(9, count).take(at, axis=1)
     # The reversed cubic is that of the same triangle with places and velocities exchanged: p + s r = s (r + p / s).
@@ -111,7 +137,7 @@ def _images(still, moving, lengths, roots, distance):
 
 
 def _inside(weights, area, lengths, roots):
-    """Whether P may lie in the moved triangle as far as rounding goes, and the triangle surely is more than a line.
+    """Return True where P may lie in the moved triangle within rounding, and the triangle surely has an area.
 
     p + W_B a + W_C b = 0. Through p, a, b and the products the weight of a corner is off by at most 8 u times the
     lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P

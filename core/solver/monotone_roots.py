@@ -14,7 +14,7 @@ _FAR = 2.0 ** 300
 
 def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray,
                    high: np.ndarray) -> tuple[Roots, np.ndarray]:
-    """Every root between `low` and `high`, whatever the cubic.
+    """Find every root between `low` and `high` of any cubic.
 
     Coefficients at either end that rounding cannot tell from zero are taken as zero: their roots lie at 0 or at
     infinity as far as anyone can know, and are no positive roots. What is left is split at the extrema into monotone
@@ -78,7 +78,14 @@ def monotone_roots(coefficients: np.ndarray, bounds: np.ndarray, low: np.ndarray
 
 
 def _without_noise(c: np.ndarray, bounds: np.ndarray):
-    """The cubics less the outer coefficients within their bounds, and the first and last coefficient left."""
+    """Set outer coefficients of the cubics `c` (4, n) to zero that lie within their `bounds` (4, n).
+
+    Returns
+    -------
+    c : (4, n) float64
+    first, last : (n,) float64, the first and last coefficient that is not within its bound
+    degenerate : (n,) bool, True for cubics all of whose coefficients are within their bounds
+    """
     known = np.abs(c) > bounds
     degenerate = ~(known[0] | known[1] | known[2] | known[3])
     if known[0].all() and known[3].all():
@@ -93,8 +100,14 @@ def _without_noise(c: np.ndarray, bounds: np.ndarray):
 
 def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, last: np.ndarray, low: np.ndarray,
                         high: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Ends (4, n) of the three intervals low, extremum, extremum, high (any of them empty), the signs there, zero at a
-    triple root, and whether the extrema (2, n) are flat: rounding cannot tell them from zero."""
+    """Split the range from `low` (n,) to `high` (n,) at the cubic's extrema into three intervals; any may be empty.
+
+    Returns
+    -------
+    ends : (4, n) float64, low, extremum, extremum, high
+    signs : (4, n) int8, of the cubic at the ends, 0 at a triple root
+    flat : (2, n) bool, True for extrema where rounding cannot tell the cubic from zero
+    """
     high = np.maximum(low, high)
     ends = np.empty((4, c.shape[1]))
     ends[0], ends[3] = low, np.where(high < _FAR, high, np.inf)
@@ -110,7 +123,7 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         one, other = q / (3.0 * c[3]), c[1] / q
     real = discriminant > 0.0
-    # Where rounding cannot tell the slope at the inflection from zero, both extrema are there.
+    # Put both extrema at the inflection if rounding cannot tell the slope there from zero.
     near = np.flatnonzero(~real & (discriminant > -0.1 * c[2] * c[2]) & (c[2] * c[3] < 0.0))
     if len(near):
         part = c[:, near]
@@ -137,7 +150,7 @@ def _monotone_intervals(c: np.ndarray, bounds: np.ndarray, first: np.ndarray, la
 
 
 def _flat(c: np.ndarray, bounds: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Whether each cubic may have a double root near its extremum x.
+    """Return True (n,) for cubics that may have a double root near their extremum x (n,).
 
     At the double root that the exact cubic has, this one is at most its bound B and its slope at most that slope's
     bound D. So the root is within d of x (see `shift`), and the value here at most B + D d. As D d is seldom above

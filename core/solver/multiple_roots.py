@@ -1,4 +1,4 @@
-"""How surely roots are known, and which of them are one as far as anyone can know."""
+"""Error bounds of roots, and merging of roots that rounding cannot tell apart."""
 from __future__ import annotations
 
 import numpy as np
@@ -9,7 +9,7 @@ from .rounding import UNIT, derivatives, slope_bound, value_bound
 
 def root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
                  sign: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`Roots.error` and `Roots.spread`; clears the signs (in place) of roots with no slope to speak of.
+    """Compute `Roots.error` and `Roots.spread`; set the `sign` of roots whose slope rounding hides to 0, in place.
 
     A simple root of slope f' and curvature f'' whose extremum is further from zero than the bound B has
     f'^2 > 2 B |f''|, and then |f' d| - |f'' d^2| / 2 = B gives d <= 2 B / |f'|. At a double root |f| <= B leaves a
@@ -32,15 +32,17 @@ def root_errors(c: np.ndarray, bounds: np.ndarray, x: np.ndarray,
 
 
 def shift(c: np.ndarray, level: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """How far an extremum at x may move where the slope f' is off by no more than its bound D (`level`): D / |f''|, and
-    where that vanishes sqrt(D / |3 c3|)."""
+    """Bound the displacement (n,) of an extremum at x (n,) due to an error of the slope f' of at most D (`level`).
+
+    It is D / |f''|, or sqrt(D / |3 c3|) if f'' vanishes.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.fmin(level / np.abs(2.0 * c[2] + 6.0 * c[3] * x), np.sqrt(level / np.abs(3.0 * c[3])))
 
 
 def merged(roots: Roots, slot: np.ndarray, ends: np.ndarray, flat: np.ndarray, c: np.ndarray,
            bounds: np.ndarray) -> Roots:
-    """The roots (m), with those two that lie close to either side of a flat extremum replaced by one double root there.
+    """Replace pairs of roots close to both sides of a flat extremum by one double root there; return all roots.
 
     Near an extremum of curvature f'' a root at the distance d has the slope f'' d and the error 2 B / (f'' d), and the
     extremum is f'' d^2 / 2 high. Flat ones are at most 4 B high: then d is at most 4 times the error. Roots further off

@@ -136,10 +136,10 @@ def _checked(vertices, rays, points):
 
 
 def _chunks(pairs: np.ndarray):
-    """At least one part, which may be empty."""
+    """Return portions of `pairs` (n,): at least one, which may be empty."""
     return (pairs[part] for part in portions(max(len(pairs), 1), CHUNK))
 
 
 def _turned(pair, distance, weights, sign, side):
-    """Images with their parity, by the side of the triangle that their rays leave."""
+    """Replace the sign of each image by its parity, which depends on the triangle's `side` that its rays leave."""
     return pair, distance, weights, np.where(side < 0.0, -sign, sign)

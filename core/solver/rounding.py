@@ -1,4 +1,4 @@
-"""What rounding does to the value of a cubic: bounds on its error, and on that of its slope."""
+"""Bounds on the rounding errors of a cubic's value and of its slope."""
 from __future__ import annotations
 
 import numpy as np
@@ -19,7 +19,7 @@ def horner(c: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def derivatives(c: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The cubic, its slope and half its second derivative."""
+    """Return the values of the cubics `c` (4, n) at x (n,), their slopes, and half their second derivatives."""
     value = c[3] * x
     bend = 3.0 * value + c[2]
     return ((value + c[2]) * x + c[1]) * x + c[0], (bend + c[2]) * x + c[1], bend

@@ -1,4 +1,4 @@
-"""The ordinary cubic: simple roots by the closed form, each certified; and which cubics are not ordinary."""
+"""Ordinary cubics: simple roots in closed form, each certified; all other cubics are marked."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -92,8 +92,14 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
 
 
 def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Roots (3, n) in rising order, of which only the first counts where there is one; whether there are three, and lie
-    apart."""
+    """Solve cubics `c` (4, n) in closed form.
+
+    Returns
+    -------
+    roots : (3, n) float64, increasing; only the first is valid if there is one
+    many : (n,) bool, True for cubics with three real roots
+    apart : (n,) bool, True if the discriminant is surely not zero, so that no roots coincide
+    """
     third, b, d = c[2] / c[3], c[1] / c[3], c[0] / c[3]
     third *= 1.0 / 3.0
     b *= 1.0 / 3.0
@@ -119,8 +125,10 @@ def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _of_depressed(third: np.ndarray, q: np.ndarray, r: np.ndarray, many: np.ndarray) -> np.ndarray:
-    """Roots (3, n) of y^3 - 3 q y + 2 r, less a `third` of the squares' coefficient; three where there are `many`, else
-    only the first counts. `r` is used up."""
+    """Solve y^3 - 3 q y + 2 r = 0 and return the roots y - `third` (3, n); overwrites `r`.
+
+    Cubics that are `many` (n,) have three roots; of all others only the first is valid.
+    """
     # Functions are taken of ratios alone, so that a change of scale by a power of two changes no bit.
     # Three: with 3 phi the arc cosine of r / q^1.5, -2 sqrt(q) cos(phi) and those a third of a turn to either side;
     # tan(phi / 2) gives cosine and sine at once.

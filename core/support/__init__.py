@@ -1,7 +1,7 @@
-"""What every room needs: arguments checked, errors, settings, long work in steps that tell how far it is.
+"""Support for all packages: checks of arguments, errors, settings, and long work in steps with progress.
 
-In come arguments as somebody gave them, and functions that take long; out come numbers that can be worked with, one
-sentence on what is wrong, and generators that say what they do.
+In come arguments as the caller gave them, and functions that take long; out come checked arrays and numbers, errors of
+one sentence, and generators that yield the progress.
 """
 from .checks import LARGEST, must_be, number, numbers, whole_number, whole_numbers
 from .crowding import crowded

@@ -1,8 +1,8 @@
-"""What is given to the core, looked at once, at its door: an array of numbers, of whole numbers, or one number.
+"""Input validation at the core's public interface: an array of numbers, an array of integers, or one number.
 
-Each of these takes whatever NumPy and Python count as such a thing (lists, any precision and byte order, scalars of
-NumPy) and says the caller's one sentence of everything else. Truth values, text and complex numbers are no numbers
-here, and numbers with a fraction are no whole ones, not even 2.0: where one stands, something else was meant.
+Each function accepts whatever NumPy and Python count as such (lists, any precision and byte order, NumPy scalars) and
+raises an error with the caller's message for anything else. Booleans, text and complex numbers are no numbers here, and
+floats are no integers, not even 2.0: they show that the caller meant something else.
 """
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ LARGEST = 1e40
 
 
 def must_be(given, kinds: type | tuple[type, ...], wrong: str) -> None:
-    """Raises `ReflectionError`, which says what is `wrong`, where something is of none of the kinds."""
+    """Raise `ReflectionError` with the message `wrong` if `given` is an instance of none of the `kinds`."""
     if not isinstance(given, kinds):
         raise ReflectionError(wrong)
 
 
 def numbers(given, shape: tuple, wrong: str) -> np.ndarray:
-    """An array as float64, which is the given one where that already fits.
+    """Convert `given` to an array of float64; return the given array itself if it already fits.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def numbers(given, shape: tuple, wrong: str) -> np.ndarray:
     shape : tuple of int or None
         The length of each axis, None for one of any length. A list of nothing has any shape whose first axis may be 0.
     wrong : str
-        What to say where it is no array of numbers of that shape.
+        Message of the error if it is no array of numbers of that shape.
 
     Raises
     ------
@@ -43,12 +43,12 @@ def numbers(given, shape: tuple, wrong: str) -> np.ndarray:
     array = _array(given, shape, wrong)
     if array.dtype.kind not in "iuf" and len(array) and not _all(array, _real):
         raise ValueError(wrong)
-    with np.errstate(over="ignore"):  # what no float64 can hold is infinite
+    with np.errstate(over="ignore"):  # numbers too large for float64 become infinite
         return _array(array, shape, wrong, np.float64)
 
 
 def whole_numbers(given, shape: tuple, wrong: str) -> np.ndarray:
-    """The same of whole numbers, as int64; those too large for it come out below zero."""
+    """Convert `given` to an array of int64, as `numbers` does; integers too large for int64 become negative."""
     array = _array(given, shape, wrong)
     if array.dtype.kind not in "iu" and len(array) and not _all(array, _whole):
         raise ValueError(wrong)
@@ -56,7 +56,7 @@ def whole_numbers(given, shape: tuple, wrong: str) -> np.ndarray:
 
 
 def number(given) -> float:
-    """One real number as a float: not a number where it is none."""
+    """Convert one real number to a float; return NaN if `given` is none."""
     if isinstance(given, np.ndarray) and not given.ndim:
         given = given[()]
     if not _real(given):
@@ -68,7 +68,7 @@ def number(given) -> float:
 
 
 def whole_number(given) -> int | None:
-    """One whole number as an int, None where it is none."""
+    """Convert one integer to an int; return None if `given` is none."""
     return index(given) if _whole(given) else None
 
 
@@ -85,7 +85,7 @@ def _array(given, shape: tuple, wrong: str, dtype: type | None = None) -> np.nda
 
 
 def _all(array: np.ndarray, kind: Callable[[object], bool]) -> bool:
-    """Whether an array of objects holds nothing else, such as fractions or numbers too long for NumPy."""
+    """Return True for an array of Python objects all of which are of a `kind`, such as fractions or long integers."""
     return array.dtype.kind == "O" and all(kind(part) for part in array.flat)
 
 

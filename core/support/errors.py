@@ -1,4 +1,4 @@
-"""What is wrong with an input, in one sentence."""
+"""Errors of invalid input, with a message of one sentence."""
 
 
 class ReflectionError(ValueError):

@@ -10,7 +10,7 @@ from .stepping import breathe
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
-WAIT = 0.05     # seconds after which whoever waits for the work gets its turn
+WAIT = 0.05     # seconds between the turns of the caller that waits for the work
 _threads = [os.cpu_count() or 1]
 
 

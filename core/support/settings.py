@@ -1,4 +1,4 @@
-"""What the user asks for: one number, the tolerance in pixels, and few choices."""
+"""Settings of `core.reflect`: one number, the tolerance in pixels, and few choices."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,14 +9,15 @@ from .checks import LARGEST, number, whole_number
 
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
 METHODS = ("GENERAL", "PARALLEL", "POINTS")
-MOST_BOUNCES, LEFT = 8, 0.002  # of an automatic depth; and the share of a mirror's pixels that may see mirrors still
+# limits of an automatic depth: bounces, and share of a mirror's pixels that may still see mirrors at the last one
+MOST_BOUNCES, LEFT = 8, 0.002
 _MOST = 2 ** 62
 """Whole numbers that are larger would not fit the arrays' own."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How `core.reflect` works.
+    """Settings of `core.reflect`.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ class Settings:
 
     @property
     def bounces(self) -> int:
-        """How many bounces are followed at most."""
+        """Largest number of bounces to follow."""
         if self.depth:
             return self.depth
         return 1 if self.method == "POINTS" else MOST_BOUNCES

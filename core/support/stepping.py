@@ -39,14 +39,14 @@ def breathe() -> None:
 
 
 def portions(count: int, size: int) -> Generator[slice, None, None]:
-    """Slices of up to `size` of so many things, one behind another, with a breath before each."""
+    """Yield consecutive slices of up to `size` entries that cover `count` entries; call `breathe` before each."""
     for start in range(0, count, size):
         breathe()
         yield slice(start, min(start + size, count))
 
 
 def tell(share: float, stage: str) -> None:
-    """Let the caller of the work know how much of it is done, 0 to 1, and what comes next."""
+    """Tell the caller of the work the `share` of it that is done, 0 to 1, and the `stage` that comes next."""
     work = getattr(_here, "work", None)
     if work is not None:
         work.told = share, stage
@@ -54,8 +54,10 @@ def tell(share: float, stage: str) -> None:
 
 
 def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, Result]:
-    """What `work` returns, in steps: yields what it told last, (share, stage), at every stage and several times a
-    second in long ones. Closing the generator, or an error in the caller, stops the work at its next breath.
+    """Run `work` in steps as a generator, and return its result.
+
+    It yields the last message of `tell`, (share, stage), at every stage and several times a second in long ones.
+    Closing the generator, or an error in the caller, stops the work at its next call of `breathe`.
 
     Examples
     --------
@@ -71,7 +73,7 @@ def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, R
     try:
         while running.go_on():
             yield running.told
-        # what the caller does next is not a part of a long last step
+        # yield once more after a long last step, so that the caller's next action is not a part of it
         if perf_counter() - running.resumed > INTERVAL:
             yield running.told
     finally:
@@ -82,9 +84,9 @@ def in_steps(work: Callable[[], Result]) -> Generator[tuple[float, str], None, R
 
 
 class _Work(Generic[Result]):
-    """Work on its own stack, and whose turn it is."""
+    """Work on a thread of its own, which takes turns with the caller."""
 
-    result: Result  # of work that has ended without an error
+    result: Result  # set when the work has ended without an error
 
     def __init__(self, work: Callable[[], Result]) -> None:
         self.told, self.resumed, self.stopped, self.ended = (0.0, ""), 0.0, False, False
@@ -94,7 +96,7 @@ class _Work(Generic[Result]):
         self._thread = threading.Thread(target=self._run, name="reflection", daemon=True)
 
     def go_on(self) -> bool:
-        """Give the work its turn and wait for ours; whether it goes on after that."""
+        """Give the work its turn and wait for ours; return True if the work has not ended."""
         if self._thread.ident is None:
             self._thread.start()
         self._mine.release()

@@ -17,13 +17,13 @@ VISITS_OF_A_PAIR = 3  # tests of a cone against a node, to a pair that may be fo
 
 @dataclass(frozen=True)
 class Bound:
-    """What may be looked for.
+    """Limits of a search for pairs of cones and triangles.
 
     Attributes
     ----------
-    most : int, pairs of cones (n) and triangles
-    worth : (n,) float64, of cones that meet too much, those are given up first that meet the most for their worth
-    enough : (n,) float64, optional, triangles, to be tested at a time, from which on a cone is full
+    most : int, largest number of pairs of cones (n) and triangles
+    worth : (n,) float64, if there are too many pairs, cones with the most triangles for their worth are given up first
+    enough : (n,) float64, optional, number of triangles tested at a time from which on a cone is full
     """
 
     most: int
@@ -34,7 +34,7 @@ class Bound:
         return Bound(self.most, self.worth[chosen], None if self.enough is None else self.enough[chosen])
 
     def beside(self, found: int) -> Bound:
-        """The bound where so many pairs are known."""
+        """Return the bound that is left after `found` pairs."""
         return Bound(max(self.most - found, 0), self.worth, self.enough)
 
 
@@ -58,19 +58,19 @@ class Touching:
 
     @classmethod
     def none(cls, count: int) -> Touching:
-        """Nothing, of so many cones."""
+        """Return no pairs, for `count` cones."""
         nothing, no_cone = np.zeros(0, dtype=np.int64), np.zeros(count, dtype=bool)
         return cls(nothing, nothing, 0, no_cone, no_cone)
 
     @classmethod
     def joined(cls, parts: list[Touching]) -> Touching:
-        """All parts, of the same cones."""
+        """Join the pairs of several traces of the same cones."""
         cone, triangle, given_up, full = zip(*((part.cone, part.triangle, part.given_up, part.full) for part in parts))
         return cls(np.concatenate(cone), np.concatenate(triangle), sum(part.visited for part in parts),
                    np.logical_or.reduce(given_up), np.logical_or.reduce(full))
 
     def among(self, chosen: np.ndarray, count: int) -> Touching:
-        """The same, where the cones are those `chosen` (n,) of so many."""
+        """Renumber the cones (n) as the cones `chosen` (n,) of `count` cones."""
         given_up, full = np.zeros((2, count), dtype=bool)
         given_up[chosen], full[chosen] = self.given_up, self.full
         return Touching(chosen[self.cone], self.triangle, self.visited, given_up, full)
@@ -79,15 +79,15 @@ class Touching:
 def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
                   family: np.ndarray | None = None) -> Touching:
-    """Pairs of cones and triangles that may touch, as many as are allowed.
+    """Find pairs of cones and triangles that may touch, up to a bound on their number.
 
     Parameters
     ----------
     tree : SceneTree
     cones : Cones or Shafts
     bound : Bound
-    asked : callable, optional, which pairs (p,) of a cone and a triangle count
-    family : (n,) int64, optional, rising: cones of one family lie close together
+    asked : callable, optional, takes cones (p,) and triangles (p,); returns True (p,) for pairs to keep
+    family : (n,) int64, optional, increasing: cones of one family lie close together
     """
     worth, most = bound.worth, bound.most
     wanted, visits = np.ones(len(worth), dtype=bool), VISITS_OF_A_PAIR * most
@@ -102,7 +102,7 @@ def bounded_trace(tree: SceneTree, cones: Cones | Shafts, bound: Bound,
         breathe()
         visited += more
         if visited > visits and len(cone):
-            # what lies in the shares still to come is given up whole, with the rest of this one
+            # give up all cones of the shares still to come, and the rest of this one
             leave(np.arange(cone.min() // CONES_AT_ONCE * CONES_AT_ONCE, len(worth)))
         if asked is not None and len(cone):
             kept = asked(cone, triangle)

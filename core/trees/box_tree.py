@@ -15,10 +15,10 @@ from ..support import breathe, portions
 
 BINS = 12
 LEAF = 8  # triangles that a leaf holds at most
-FEW = 4  # triangles that are not worth a cut
+FEW = 4  # triangles: as few are not split further
 DEEPEST = 64
 FRAMES_AT_ONCE = 32768
-ROUNDING = 1e-9  # of the tree's size: boxes are larger by this, so that no ray slips between two of them
+ROUNDING = 1e-9  # share of the tree's size: boxes are larger by this, so that no ray slips between two of them
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,10 @@ class BoxTree:
 
     @classmethod
     def of_one_leaf(cls, mesh: TriangleMesh) -> BoxTree:
-        """All triangles in their own order, not numbers where one has no area, in a leaf without a box: for those who
-        know without boxes which triangles to test."""
+        """Build a tree of one leaf without a box, with all triangles in their own order.
+
+        It is for callers that find the triangles to test in another way. Frames of triangles without an area are NaN.
+        """
         middle, size, corners, kept = _about_middle(mesh)
         frames = np.full((12, len(mesh.triangles)), np.nan)
         frames[:, kept] = _frames(corners, kept)
@@ -74,7 +76,15 @@ class BoxTree:
 
 
 def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np.ndarray]:
-    """Middle and size of a mesh, the corners (3, m, 3) of its triangles about the middle, and those with an area."""
+    """Centre a mesh at the origin.
+
+    Returns
+    -------
+    middle : (3,) float64, centre of its bounding box
+    size : float, half the diagonal of the box
+    corners : (3, m, 3) float64, corners of the triangles relative to the centre
+    kept : (k,) int64, triangles with an area
+    """
     corners = rows(mesh.positions[mesh.triangles])
     used = corners.reshape(3, -1) if corners.size else np.zeros((3, 1))
     low, high = used.min(axis=1), used.max(axis=1)
@@ -84,8 +94,13 @@ def _about_middle(mesh: TriangleMesh) -> tuple[np.ndarray, float, np.ndarray, np
 
 
 def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
-    """(low, high, child, start, count) of the nodes of each level, and the order of the triangles, with boxes `low` to
-    `high` (3, m)."""
+    """Build the tree over triangles with boxes from `low` to `high` (3, m), level by level.
+
+    Returns
+    -------
+    levels : list of tuples (low, high, child, start, count), arrays of each level's nodes as in `BoxTree`
+    order : (m,) int64, triangles, leaf after leaf
+    """
     order = np.arange(low.shape[1])
     start, count = np.zeros(1, dtype=np.int64), np.full(1, len(order))
     nodes, levels = 1, []
@@ -123,8 +138,19 @@ def _levels(low: np.ndarray, high: np.ndarray) -> tuple[list, np.ndarray]:
 
 def _cut(boxes: tuple[np.ndarray, np.ndarray], count: np.ndarray,
          node_boxes: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How many triangles of each node go to the left, 0 for a leaf; and the order of their boxes (3, m), node after
-    node, in which those of each are sorted."""
+    """Split nodes (n) by the surface area heuristic, along the axis on which their triangles' centres spread most.
+
+    Parameters
+    ----------
+    boxes : two (3, m) float64, low and high corners of the triangles' boxes, node after node
+    count : (n,) int64, triangles of each node
+    node_boxes : two (3, n) float64, low and high corners of the nodes' boxes
+
+    Returns
+    -------
+    left : (n,) int64, number of triangles in the left child, 0 for a leaf
+    turn : (m,) int64, order that sorts the boxes of each node along its axis
+    """
     (low, high), (node_low, node_high) = boxes, node_boxes
     first, nodes = np.cumsum(count) - count, np.arange(len(count))
     node = np.repeat(nodes, count)
@@ -155,7 +181,7 @@ def _cut(boxes: tuple[np.ndarray, np.ndarray], count: np.ndarray,
     cost = np.where((before > 0) & (before < count[:, None]), cost, np.inf)
     best = np.argmin(cost, axis=1)
     left, cost = before[nodes, best], cost[nodes, best]
-    # where all middles are one point no plane parts them: halves do as well as anything
+    # if all centres are one point no plane separates them: split into halves
     left = np.where(np.isfinite(cost), left, count // 2)
     worth = cost + _area(node_low, node_high) < count * _area(node_low, node_high)
     left[(count <= LEAF) & ~worth] = 0
@@ -168,7 +194,7 @@ def _area(low: np.ndarray, high: np.ndarray) -> np.ndarray:
 
 
 def _frames(corners: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """(12, t): of the triangles `order` (t,) with corners (3, m, 3)."""
+    """Return the frames (12, t) of the triangles `order` (t,), of all with `corners` (3, m, 3)."""
     frames = np.empty((12, len(order)))
     for part in portions(len(order), FRAMES_AT_ONCE):
         own = corners[:, order[part]]

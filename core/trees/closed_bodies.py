@@ -16,11 +16,12 @@ from ..support import portions
 from ..views import Covered, View
 from .cones import Cones
 
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
-LINES = 1 << 16  # that bodies are looked through along, all together
-FEWEST, MOST = 4, 64  # of them along each side of one body
-TOGETHER = 1e-9  # of a body's size: what lies closer is met at once
-STARTS = np.stack(np.meshgrid(*2 * [np.linspace(0.0, 1.0, 3)]), axis=-1).reshape(-1, 2)  # of rays, over the picture
+AT_ONCE = 16384  # triangles whose arrays fit the cache
+LINES = 1 << 16  # test lines through all bodies together
+FEWEST, MOST = 4, 64  # test lines along each side of one body
+TOGETHER = 1e-9  # share of a body's size: closer surfaces are met at once
+# places in the picture, from 0 to 1, at which test rays start
+STARTS = np.stack(np.meshgrid(*2 * [np.linspace(0.0, 1.0, 3)]), axis=-1).reshape(-1, 2)
 # right, up and along the lines: askew to whatever people build
 FRAME = np.linalg.qr(np.array([[0.83, -0.46, 0.31], [0.37, 0.71, 0.59], [-0.41, -0.53, 0.74]]))[0]
 
@@ -32,11 +33,11 @@ class ClosedBodies:
     Attributes
     ----------
     mesh : TriangleMesh
-    border : (v,) int64, vertices at which the surface ends, or turns its other side
-    part : (v,) int64, the part of the mesh that each vertex is of: what hangs together by vertices in one place
+    border : (b,) int64, vertices at which the surface ends, or changes its orientation
+    part : (v,) int64, connected part of the mesh that each vertex belongs to; vertices in one place are connected
     body : (m,) int64, the body that each triangle bounds, -1 for none
-    outward : (m,) float64, 1 where its normal points out of the body that it bounds, 0 where it bounds none
-    low, high : (3, k) float64, the boxes round the bodies along the directions of `FRAME`
+    outward : (m,) float64, 1 for triangles whose normal points out of the body that they bound, 0 for all others
+    low, high : (3, k) float64, bounding boxes of the bodies along the directions of `FRAME`
     """
 
     mesh: TriangleMesh
@@ -49,7 +50,7 @@ class ClosedBodies:
 
     @classmethod
     def of(cls, mesh: TriangleMesh) -> ClosedBodies:
-        """Those of a mesh in its canonical order."""
+        """Find the closed bodies of a mesh that is in its canonical order."""
         triangles = mesh.triangles
         places = mesh.places[triangles]
         ends = borders(places, len(mesh.positions))[mesh.places]
@@ -74,17 +75,19 @@ class ClosedBodies:
             np.maximum.at(high[axis], owner[used], spots[axis, used])
         own, corner = body[some], triangles[some].T
         facing, volume = _up_and_volume(spots, corner, 0.5 * (low + high), own)
-        # a room has its front within: who looks into it from outside does so through what is culled there
+        # a room has its front inside, a negative volume: from outside one looks into it through its back faces
         proper = np.bincount(own, volume, minlength=low.shape[1]) > 0.0
         proper &= ~_overlapping(spots, corner, own, facing, (low, high))
         outward[some[proper[own]]] = 1.0
         return cls(mesh, border, part_of, body, outward, low, high)
 
     def outward_from(self, view: View) -> np.ndarray:
-        """What `outward` (m,) is of bodies from outside of which the view looks, 0 of all others: what it sees in
-        mirrors it sees from outside as well, since on the way there nothing is in between. It looks from where it
-        does not cut off any more what is near: a camera that stands before a room may so look into it; and from the
-        eye, from which on mirrors are met."""
+        """Return `outward` (m,) for triangles of bodies that the view is outside of, and 0 for all others.
+
+        Mirrors show such a body from outside too, since no surface lies between the eye and the mirror. The view looks
+        from its near clipping plane: a camera in front of a room may thus look into it. It also looks from the eye,
+        because mirrors are seen from there.
+        """
         if not self.low.shape[1]:
             return self.outward
         starts = view.starts(STARTS * view.resolution)
@@ -92,11 +95,11 @@ class ClosedBodies:
             starts = np.concatenate((starts, view.eye[None]))
         spots, ahead = FRAME @ starts.T, FRAME @ view.forward
         outside = ((spots.max(axis=1)[:, None] < self.low) | (spots.min(axis=1)[:, None] > self.high)).any(axis=0)
-        # those of a picture lie in one plane
+        # the start points of a picture lie in one plane: bodies on one side of it are outside
         height = ahead @ (0.5 * (self.low + self.high)) - (ahead @ spots)[:, None]
         room = (1.0 + TOGETHER) * (np.abs(ahead) @ (0.5 * (self.high - self.low)))
         outside |= (height > room).all(axis=0) | (height < -room).all(axis=0)
-        # where an orthographic view starts it cuts bodies between its points as well
+        # test winding numbers only in perspective: an orthographic view may start in a body between its start points
         for body in np.flatnonzero(~outside) if not view.orthographic else ():
             corners = self.mesh.positions[self.mesh.triangles[self.body == body]]
             outside[body] = all(abs(solid_angles(start, corners).sum()) < 2.0 * np.pi for start in starts)
@@ -104,30 +107,30 @@ class ClosedBodies:
 
     def having(self, some: np.ndarray) -> np.ndarray:
         """Return True for triangles (m,) of bodies that some of the triangles, `some` (m,), bound."""
-        bodies = mask(self.low.shape[1] + 1, self.body[some])  # the last one for what bounds none
+        bodies = mask(self.low.shape[1] + 1, self.body[some])  # the last entry is for triangles that bound no body
         return (self.body >= 0) & bodies[self.body]
 
 
 @dataclass(frozen=True)
 class Fronts:
-    """From where triangles (m) can be seen.
+    """Half-spaces from which triangles (m) can be seen.
 
     Attributes
     ----------
     plane : (4, m) float64
-        Unit normal to the side that a triangle shows, and how high it lies along it; zero where it shows both.
+        Unit normal on the visible side of a triangle, and its height along that; zero if both sides are visible.
     """
 
     plane: np.ndarray
 
     @classmethod
     def of(cls, mesh: TriangleMesh, outward: np.ndarray) -> Fronts:
-        """Those of a mesh that shows its outer side, where that is told (m,)."""
+        """Return the half-spaces in front of triangles with `outward` (m,) 1; triangles with 0 are seen from both."""
         normal = rows(mesh.face_normals()) * outward
         return cls(np.concatenate((normal, dot(normal, rows(mesh.positions[mesh.triangles[:, 0]]))[None])))
 
     def may_show(self, cones: Cones, cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        """Whether rays of the cones (p,) may come from where the triangles (p,) can be seen."""
+        """Return True (p,) if rays of each cone `cone` (p,) may start where its `triangle` (p,) can be seen."""
         normal = columns(self.plane, triangle)
         height = dot(normal, columns(cones.centre, cone))
         height -= normal[3]
@@ -136,8 +139,20 @@ class Fronts:
 
 def _up_and_volume(spots: np.ndarray, corner: np.ndarray, middle: np.ndarray,
                    body: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of triangles with `corner` (3, n) among spots (3, v): 1 where they face up, -1 down; and six times their cones'
-    volumes from the middles (3, k) of their bodies (n,)."""
+    """Return the orientation of triangles, and their contributions to their bodies' volumes.
+
+    Parameters
+    ----------
+    spots : (3, v) float64, vertices in the directions of `FRAME`
+    corner : (3, n) int64, vertices of the triangles
+    middle : (3, k) float64, centres of the bodies
+    body : (n,) int64, of each triangle
+
+    Returns
+    -------
+    facing : (n,) float64, 1 for triangles that face up, -1 for those that face down
+    volume : (n,) float64, six times the signed volume of the tetrahedron from the body's centre
+    """
     facing, volume = np.empty(len(body)), np.empty(len(body))
     for part in portions(len(body), AT_ONCE):
         a, b, c = (columns(spots, of_all) for of_all in corner[:, part])
@@ -149,8 +164,18 @@ def _up_and_volume(spots: np.ndarray, corner: np.ndarray, middle: np.ndarray,
 
 def _overlapping(spots: np.ndarray, corner: np.ndarray, body: np.ndarray, facing: np.ndarray,
                  boxes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    """Bodies (k,) that some line from above leaves before it has entered them: it enters those of triangles with
-    `corner` (3, n) among spots (3, v) where these are `facing` (n,) up, and leaves where down."""
+    """Return True for bodies (k,) that some vertical line from above leaves before it has entered them.
+
+    A line enters a body at triangles that face up, and leaves it at triangles that face down.
+
+    Parameters
+    ----------
+    spots : (3, v) float64, vertices in the directions of `FRAME`
+    corner : (3, n) int64, vertices of the triangles
+    body : (n,) int64, of each triangle
+    facing : (n,) float64, 1 for triangles that face up, -1 for those that face down
+    boxes : two (3, k) float64, low and high corners of the bodies' boxes
+    """
     low, high = boxes
     count = low.shape[1]
     side = int(np.clip(np.sqrt(LINES / count), FEWEST, MOST))

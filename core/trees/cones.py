@@ -47,7 +47,10 @@ class Cones:
         return cls(centre, radius, axis, *_opening(half, norm(total) < 1e-6))
 
     def touch(self, cone: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
-        """Whether cones `cone` (n,) may touch spheres with `centre` (3, n) and `radius` (n,); never a false no."""
+        """Return True (n,) if each `cone` (n,) may touch the sphere with `centre` (3, n) and `radius` (n,).
+
+        The test is conservative: a cone that touches its sphere is never missed.
+        """
         offset, axis = centre - columns(self.centre, cone), columns(self.axis, cone)
         height = dot(offset, axis)
         axis *= height
@@ -57,7 +60,7 @@ class Cones:
         return (cosine <= 0.0) | ((norm(offset) * cosine - height * sine <= room) & (height >= -room))
 
     def together(self, start: np.ndarray) -> Cones:
-        """Cones round the cones of each run from one of `start` (f,) to the next."""
+        """Return bounding cones (f) of runs of cones; each run begins at an entry of `start` (f,)."""
         centre, radius, run = _spheres_round(self.centre, self.radius, start)
         total = np.add.reduceat(self.axis, start, axis=1)
         axis = unit(total)
@@ -83,16 +86,23 @@ class Balls:
         return len(self.radius)
 
     def touch(self, ball: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
-        """Whether the spheres `ball` (n,) and those with `centre` (3, n) and `radius` (n,) overlap."""
+        """Return True (n,) if each sphere `ball` (n,) overlaps the one with `centre` (3, n) and `radius` (n,)."""
         return norm(columns(self.centre, ball) - centre) <= self.radius[ball] + radius
 
     def together(self, start: np.ndarray) -> Balls:
-        """Spheres round the spheres of each run from one of `start` (f,) to the next."""
+        """Return bounding spheres (f) of runs of spheres; each run begins at an entry of `start` (f,)."""
         return Balls(*_spheres_round(self.centre, self.radius, start)[:2])
 
 
 def _spheres_round(centre: np.ndarray, radius: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Centres (3, f) and radii (f,) round spheres from one of `start` (f,) to the next; the run (n,) of each."""
+    """Return bounding spheres of runs of spheres that begin at `start` (f,).
+
+    Returns
+    -------
+    centre : (3, f) float64
+    radius : (f,) float64
+    run : (n,) int64, the run of each given sphere
+    """
     count = np.diff(np.append(start, len(radius)))
     run = np.repeat(np.arange(len(start)), count)
     middle = np.add.reduceat(centre, start, axis=1) / count
@@ -100,6 +110,9 @@ def _spheres_round(centre: np.ndarray, radius: np.ndarray, start: np.ndarray) ->
 
 
 def _opening(half: np.ndarray, everywhere: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sine and cosine of opening angles of whose halves the sines are given."""
+    """Return sine and cosine of opening angles from the sines of their halves, `half` (n,).
+
+    The cosine of cones that are too wide, or contain `everywhere` (n,), is -1.
+    """
     wide = (half >= 0.7) | everywhere
     return 2.0 * half * np.sqrt(np.maximum(1.0 - half**2, 0.0)), np.where(wide, -1.0, 1.0 - 2.0 * half**2)

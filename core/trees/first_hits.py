@@ -115,7 +115,10 @@ class _Trace:
             stack.extend(batch for batch in batches if len(batch[0]))
 
     def _enter(self, ray: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """Where the rays enter the boxes of the nodes, infinite where they do not before the nearest hit so far."""
+        """Return the distance at which each `ray` (n,) enters the box of its `node` (n,).
+
+        It is infinite if the ray misses the box, or enters it behind its nearest hit so far.
+        """
         self.nodes += len(ray)
         enter, leave = np.zeros(len(ray)), self.nearest[ray]
         for low, high, inverse, shift in zip(self.tree.low, self.tree.high, self.inverse, self.shift):
@@ -147,8 +150,19 @@ def _entering(ray: np.ndarray, node: np.ndarray, entry: np.ndarray) -> tuple[np.
 
 def meet(tree: BoxTree, entry: np.ndarray, origins: np.ndarray, directions: np.ndarray,
          ray: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (p,) at which rays `ray` meet the planes of the triangles at `entry` of the tree's order, and whether
-    inside the triangles; `origins` are relative to the tree's middle."""
+    """Intersect rays with the planes of triangles.
+
+    Parameters
+    ----------
+    entry : (p,) int64, triangles, as entries of the tree's `order`
+    origins, directions : (3, n) float64, of all rays, relative to the tree's `middle`
+    ray : (p,) int64, the ray of each pair
+
+    Returns
+    -------
+    distance : (p,) float64, in lengths of the direction
+    inside : (p,) bool, True if the ray meets the plane inside the triangle
+    """
     origin, direction = np.take(origins, ray, axis=1), np.take(directions, ray, axis=1)
 
     def row(k):

@@ -1,4 +1,4 @@
-"""How large a camera can show a small thing at most: a bound on magnification from the camera's own rays.
+"""Upper bound on a camera's magnification of small objects, from the camera's own rays.
 
 At the distance s a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of it moves by
 A(s) = A0 + s A1 across the rays, both constant in a camera, so that a thing of size r has an image of at most
@@ -55,8 +55,10 @@ class Magnification:
                        np.stack((dot(c, c), dot(c, d), dot(d, d))), np.stack(along), norm(rays).min(axis=0))
 
     def pixels(self, cones: Cones, camera: np.ndarray, sphere: np.ndarray) -> np.ndarray:
-        """No more than this is the diameter of the image of each sphere (4, n) in its camera; infinite where nothing
-        is sure."""
+        """Bound the diameter (n,), in pixels, of the image of each `sphere` (4, n) in its `camera` (n,).
+
+        It is infinite if there is no bound. `cones` are those around the cameras.
+        """
         moving, speed = np.take(self.moving, camera, axis=1), np.maximum(self.speed[camera], 1e-300)
         offset = sphere[:3] - np.take(cones.centre, camera, axis=1)
         s = np.maximum(dot(offset, np.take(cones.axis, camera, axis=1)), 0.0) / speed
@@ -71,6 +73,6 @@ class Magnification:
 
 
 def _least(gram: np.ndarray) -> np.ndarray:
-    """The smaller eigenvalue of symmetric 2 x 2 matrices by their entries 00, 01, 11."""
+    """Return the smaller eigenvalues (n,) of symmetric 2 x 2 matrices with entries 00, 01, 11 `gram` (3, n)."""
     middle, half = 0.5 * (gram[0] + gram[2]), 0.5 * (gram[0] - gram[2])
     return middle - np.hypot(half, gram[1])

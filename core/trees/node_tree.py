@@ -17,22 +17,22 @@ from .shafts import Shafts
 FIRST_LEVEL = 4
 STRIDE = 2
 CONES_AT_ONCE, NODES_AT_ONCE = 8192, 1 << 16
-CURVE_BITS = 21  # of each coordinate: three of them fit one number
+CURVE_BITS = 21  # bits of each coordinate: three coordinates fit one integer
 _SPREADING = ((32, 0x1f00000000ffff), (16, 0x1f0000ff0000ff), (8, 0x100f00f00f00f00f), (4, 0x10c30c30c30c30c3),
               (2, 0x1249249249249249))
 
 
 @dataclass(frozen=True)
 class NodeTree:
-    """What triangles and vertices have in common as trees.
+    """Common base of the trees of bounding spheres over triangles and over vertices.
 
     Attributes
     ----------
-    mesh : TriangleMesh, the scene in its canonical order, which all that follows names
-    given : Order, where its parts are in the mesh that was given
+    mesh : TriangleMesh, the scene in its canonical order; all indices below refer to it
+    given : Order, indices of its vertices and triangles in the mesh that was given
     depth : int, the leaves are the 2**depth nodes of the last level
     spheres : list of (4, 2**level) float64
-        Centre and radius around what each node of each level holds; a radius of -inf where that is nothing.
+        Centre and radius of the bounding sphere of each node of each level; the radius of an empty node is -inf.
     leaf_start : (2**depth + 1,) int64, leaf i holds order[leaf_start[i]:leaf_start[i + 1]]
     order : (n,) int64, triangles or vertices, leaf after leaf; triangles without an area are left out
     """
@@ -49,9 +49,18 @@ class NodeTree:
 
     def descended(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None = None
                   ) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
-        """Cones and leaves that touch, and how many nodes were tested for it, in shares that fit the memory. A cone
-        that is no longer `wanted` (n,) when its turn comes goes no further; nor do cones at nodes where `resting`,
-        asked with (level, cone, node), says so."""
+        """Find pairs of cones (n) and leaves that touch, in shares that fit the memory.
+
+        Parameters
+        ----------
+        wanted : (n,) bool, a cone descends only while its entry is True; the caller may change it between shares
+        resting : callable, optional, returns True (p,) for pairs (level, cone, node) that are not to descend further
+
+        Yields
+        ------
+        cone, leaf : (p,) int64
+        visited : int, number of nodes tested
+        """
         level, first = self.top()
         for part in portions(len(cones), CONES_AT_ONCE):
             cone = np.arange(part.start, part.stop)
@@ -61,8 +70,10 @@ class NodeTree:
 
     def _step(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, resting: Callable | None,
               waiting: list) -> tuple[np.ndarray, np.ndarray, int]:
-        """One level of the tree for the cones and nodes that have waited least; what comes of them waits in its turn,
-        unless they are leaves."""
+        """Descend one level with the pairs of cones and nodes pushed last to the stack `waiting`.
+
+        Push the pairs of the next level, or return those of leaves, as `descended` does.
+        """
         level, cone, node = waiting.pop()
         sphere, visited = self.spheres[level], len(cone)
         touching = wanted[cone] & cones.touch(cone, columns(sphere[:3], node), columns(sphere[3], node))
@@ -79,32 +90,35 @@ class NodeTree:
         return cone[:0], node[:0], visited
 
     def top(self) -> tuple[int, np.ndarray]:
-        """The level at which a descent begins, and its nodes."""
+        """Return the level at which a descent begins, and its nodes."""
         level = min(FIRST_LEVEL, self.depth)
         return level, np.arange(2**level)
 
     def below(self, level: int, node: np.ndarray) -> tuple[int, np.ndarray, np.ndarray]:
-        """The level to which a descent goes on from nodes (n,), what they hold there, and which of the n each is of."""
+        """Return the next level of a descent from nodes `node` (n,), their descendants, and the ancestors of these.
+
+        Descendants (m,) are nodes of the next level; ancestors (m,) are indices into `node`.
+        """
         step = min(STRIDE, self.depth - level)
         fan = np.arange(2**step)
         return level + step, (node[:, None] * len(fan) + fan).ravel(), np.repeat(np.arange(len(node)), len(fan))
 
     def runs(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where in `order` what nodes hold begins and ends."""
+        """Return begin and end (n,) of the entries of `order` that nodes `node` (n,) of a level contain."""
         fan = 2 ** (self.depth - level)
         return self.leaf_start[node * fan], self.leaf_start[(node + 1) * fan]
 
 
 def depth_for(count: int, bucket: int) -> int:
-    """The depth of a complete tree with about `bucket` of so many points a leaf."""
+    """Return the depth of a complete tree over `count` points with about `bucket` points in a leaf."""
     return max(0, int(np.ceil(np.log2(max(count, 1) / bucket))))
 
 
 def along_curve(points: np.ndarray) -> np.ndarray:
-    """The order (n,) of points (n, 3), at least one, along a Z curve.
+    """Return the order (n,) that sorts `points` (n, 3), at least one, along a Z curve.
 
-    It is that of a tree that halves the widest box along x, y and z in turn, and comes from one sort (C. Lauterbach et
-    al., "Fast BVH Construction on GPUs", Eurographics 2009).
+    It is the order of a tree that halves the bounding cube along x, y and z in turn, and needs only one sort
+    (C. Lauterbach et al., "Fast BVH Construction on GPUs", Eurographics 2009).
     """
     count = len(points)
     low, size = points.min(axis=0), np.ptp(points, axis=0).max()
@@ -118,21 +132,24 @@ def along_curve(points: np.ndarray) -> np.ndarray:
 
 
 def curve_leaves(points: np.ndarray, depth: int) -> np.ndarray:
-    """Leaf of each point (n, 3) in a complete tree, of equal parts of a Z curve through all of them."""
+    """Return the leaf (n,) of each point (n, 3) in a complete tree whose leaves are equal parts of a Z curve."""
     leaf = np.empty(len(points), dtype=np.int64)
     leaf[along_curve(points)] = np.arange(len(points)) * 2**depth // len(points)
     return leaf
 
 
 def _spread(number: np.ndarray) -> np.ndarray:
-    """Numbers (n,) of 21 bits with two zeros between each two of their bits."""
+    """Insert two zeros between neighbouring bits of integers `number` (n,) of 21 bits."""
     for shift, mask in _SPREADING:
         number = (number | (number << np.uint64(shift))) & np.uint64(mask)
     return number
 
 
 def node_spheres(low: np.ndarray, high: np.ndarray, leaf_start: np.ndarray, depth: int) -> list:
-    """Spheres around the boxes (3, t) of each node's triangles, which lie in the order of the leaves."""
+    """Compute the bounding spheres of all nodes, level by level, as in `NodeTree.spheres`.
+
+    `low` and `high` (3, t) are corners of the triangles' boxes, in the order of the leaves.
+    """
     leaves = 2**depth
     box_low, box_high = np.full((3, leaves), np.inf), np.full((3, leaves), -np.inf)
     filled = np.flatnonzero(leaf_start[1:] > leaf_start[:-1])

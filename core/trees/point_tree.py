@@ -1,4 +1,4 @@
-"""The vertices of a dense diffuse scene, for its rendering as points: of those that lie within a pixel one is shown."""
+"""The vertices of a dense diffuse scene, for rendering as points: one of the vertices within a pixel is shown."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from .magnification import Magnification
 from .node_tree import along_curve
 from .vertex_tree import VertexTree
 
-SMALL = 1.0  # pixels: the image of a node that one of its vertices may stand for
+SMALL = 1.0  # pixels: one vertex represents the vertices of a node if the node's image is smaller
 
 
 @dataclass(frozen=True)
@@ -22,9 +22,9 @@ class PointPairs:
     ----------
     camera, vertex : (p,) int64
     stood : (p,) float64
-        Radius of the sphere round the vertices that this one stands for, 0 where it stands for itself alone.
-    visited : int, tests of a cone against a node
-    covered : (v,) bool, vertices of the mesh in nodes of which one stands for all
+        Radius of the sphere around the vertices that this one represents, 0 if it represents only itself.
+    visited : int, number of tests of a cone against a node
+    covered : (v,) bool, True for vertices of the mesh in nodes that one vertex represents
     """
 
     camera: np.ndarray
@@ -62,7 +62,7 @@ class PointTree(VertexTree):
     @classmethod
     def build(cls, mesh: TriangleMesh) -> PointTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
-        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        # compare names: a mesh may come from another copy of this package, such as an extension's beside a checkout's
         if type(mesh).__name__ != TriangleMesh.__name__:
             raise ValueError("The mesh of a PointTree must be a TriangleMesh; make one of its positions and triangles.")
         mesh, given = ordered(mesh, shading=False)
@@ -70,14 +70,14 @@ class PointTree(VertexTree):
         order = used[along_curve(mesh.positions[used])] if len(used) else used
         tree = cls.along_curve(mesh, given, order, normal, reach)
         if not len(mesh.triangles):
-            # vertices without faces: what a leaf holds is spread evenly over a disc of the leaf's size
+            # vertices without faces: assume that those of a leaf are spread evenly over a disc of the leaf's size
             count = np.diff(tree.leaf_start)
             leaf_reach = 2.0 * np.maximum(tree.spheres[-1][3], 0.0) / np.sqrt(np.maximum(count, 1))
             reach[order] = np.repeat(leaf_reach, count)
         return tree
 
     def trace(self, cones: Cones, magnification: Magnification) -> PointPairs:
-        """All pairs whose images together show what the cameras see of the vertices."""
+        """Find pairs of cameras and vertices that together show all visible vertices; one may represent several."""
         none = np.zeros(0, dtype=np.int64)
         cameras, vertices, radii, visited = [none], [none], [np.zeros(0)], 0
         covered = np.zeros(len(self.mesh.positions), dtype=bool)
@@ -120,7 +120,7 @@ def _surface(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     vertex = mesh.triangles[areal]
     for row, part in zip(normal, area[:, areal]):
         row += np.bincount(vertex.ravel(), weights=np.repeat(part, 3), minlength=count)
-    # of several assignments to one vertex the last, the largest, stays
+    # sort by size: the last of several assignments to one vertex, the largest, stays
     order = np.argsort(side[areal])
     reach[vertex[order].ravel()] = np.repeat(side[areal][order], 3) / np.sqrt(3.0)
     return np.flatnonzero(mask(count, vertex)), unit(normal), reach

@@ -23,7 +23,7 @@ from .shafts import Shafts
 from .vertex_tree import VertexTree
 
 BUCKET = 4
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
+AT_ONCE = 16384  # triangles whose arrays fit the cache
 LEAST_FAMILY = 1.5  # cones: to look for fewer together costs more than it spares
 
 
@@ -54,7 +54,7 @@ class SceneTree(NodeTree):
     @classmethod
     def build(cls, mesh: TriangleMesh) -> SceneTree:
         """The tree of a mesh whose vertices and triangles may come in any order."""
-        # of another copy of this package, as an extension's beside a checkout's, a mesh is a mesh too
+        # compare names: a mesh may come from another copy of this package, such as an extension's beside a checkout's
         if type(mesh).__name__ != TriangleMesh.__name__:
             raise ValueError("The mesh of a SceneTree must be a TriangleMesh; make one of its positions and triangles.")
         return cls.of_ordered(*ordered(mesh, shading=False))
@@ -83,17 +83,17 @@ class SceneTree(NodeTree):
 
     @cached_property
     def vertices(self) -> VertexTree:
-        """For vertices that are looked for by themselves."""
+        """Tree of the vertices, for searches of vertices alone."""
         return VertexTree.along_curve(self.mesh, self.given, self.curve)
 
     @cached_property
     def bodies(self) -> ClosedBodies:
-        """Of which nothing is seen from behind."""
+        """Closed bodies of the mesh, whose back faces cannot be seen from outside."""
         return ClosedBodies.of(self.mesh)
 
     @cached_property
     def boxes(self) -> BoxTree:
-        """For rays."""
+        """Tree of boxes, for rays."""
         return BoxTree.build(self.mesh)
 
     def trace(self, cones: Cones) -> tuple[np.ndarray, np.ndarray, int]:
@@ -112,9 +112,14 @@ class SceneTree(NodeTree):
 
     def traced(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, family: np.ndarray | None = None,
                enough: np.ndarray | None = None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
-        """What `trace` returns, in shares that fit the memory; a cone that is no longer `wanted` (n,) when its turn
-        comes is not followed, nor is one wanted any longer that is to be tested against more than `enough` (n,)
-        triangles at a time. Cones that lie side by side and have the same `family` (n,) descend as one."""
+        """Yield what `trace` returns, in shares that fit the memory.
+
+        Parameters
+        ----------
+        wanted : (n,) bool, a cone is followed only while its entry is True; changed in place, see `enough`
+        family : (n,) int64, optional, increasing; neighbouring cones of the same family descend as one
+        enough : (n,) float64, optional, a cone with more triangles to test at a time is set to not wanted
+        """
         start = np.flatnonzero(np.diff(family, prepend=-1)) if family is not None else np.zeros(0, dtype=np.int64)
         if LEAST_FAMILY * len(start) < len(wanted) and len(start):
             yield from self._traced_together(cones, wanted, start, enough)
@@ -133,7 +138,7 @@ class SceneTree(NodeTree):
 
     def _traced_together(self, cones: Cones | Balls | Shafts, wanted: np.ndarray, start: np.ndarray,
                          enough: np.ndarray | None) -> Generator[tuple[np.ndarray, np.ndarray, int], None, None]:
-        """What `traced` returns for families of cones that begin at `start` (f,)."""
+        """Yield what `traced` yields, for families of cones that begin at `start` (f,)."""
         size = np.diff(np.append(start, len(wanted)))
         some = np.ones(len(start), dtype=bool)
         most = None if enough is None else np.maximum.reduceat(enough, start)
@@ -150,7 +155,7 @@ class SceneTree(NodeTree):
         wanted[np.repeat(~some, size)] = False
 
     def _touch(self, cones: Cones | Balls | Shafts, cone: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        """Whether cones (p,) may touch triangles (p,)."""
+        """Return True (p,) if each `cone` (p,) may touch its `triangle` (p,)."""
         sphere = columns(self.triangle_spheres, triangle)
         touching = cones.touch(cone, sphere[:3], sphere[3])
         if isinstance(cones, Shafts):
@@ -160,13 +165,13 @@ class SceneTree(NodeTree):
 
 
 def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Low and high corner (3, m) of the box round each triangle, and centre and radius (4, m) of the sphere."""
+    """Return low and high corners (3, m) of the triangles' boxes, and bounding spheres (4, m): centres and radii."""
     positions, count = rows(mesh.positions), len(mesh.triangles)
     low, high, spheres = np.empty((3, count)), np.empty((3, count)), np.empty((4, count))
     for part in portions(count, AT_ONCE):
         corners = [columns(positions, corner) for corner in mesh.triangles[part].T]
         a, b, c = corners
-        # as three arrays: minima along an axis of three are several times slower
+        # take minima of three arrays: minima along an axis of three are several times slower
         low[:, part], high[:, part] = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
         centre = 0.5 * (low[:, part] + high[:, part])
         spheres[:3, part] = centre
@@ -175,9 +180,11 @@ def _boxes_and_spheres(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray, np.n
 
 
 def _not_too_many(cone: np.ndarray, tests: np.ndarray, wanted: np.ndarray, enough: np.ndarray) -> np.ndarray:
-    """Which of the cones (p,), that are to be tested against so many triangles each, are still `wanted` (n,): no more
-    where that is more than `enough` (n,) together."""
+    """Return True (p,) for entries whose `cone` (p,) is still `wanted` (n,).
+
+    A cone whose `tests` (p,) against triangles exceed its `enough` (n,) in sum is set to not wanted, in place.
+    """
     if len(cone):
-        part = slice(low := cone.min(), cone.max() + 1)  # a view: what is no longer wanted is told through it
+        part = slice(low := cone.min(), cone.max() + 1)  # a slice gives a view, so that `wanted` changes in place
         wanted[part] &= np.bincount(cone - low, tests, part.stop - low) <= enough[part]
     return wanted[cone]

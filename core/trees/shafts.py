@@ -14,8 +14,8 @@ from ..cameras import Cameras
 from ..geometry import across, columns, dot, mask, norm, unit
 from .cones import Cones
 
-ROUNDING = 1e-12  # of the lengths that planes are made of
-UPRIGHT = 1e-6  # of a ray along the axis: where one leans more than that, a shaft holds everything
+ROUNDING = 1e-12  # share of the lengths that planes are computed from
+UPRIGHT = 1e-6  # component of a unit ray along the axis: a shaft with a smaller one contains everything
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,9 @@ class Shafts:
     Attributes
     ----------
     cones : Cones
-    places, rays : (3, k) float64, the rays, of unit length, that the corners leave, those of one shaft side by side
-    start : (n,) int64, where those of each shaft begin
-    reach : float, how far away the shafts are to be close round their rays, in scene units
+    places, rays : (3, k) float64, origins and unit directions of the rays at the corners, shaft after shaft
+    start : (n,) int64, index of the first ray of each shaft
+    reach : float, distance up to which the shafts fit their rays closely, in scene units
     """
 
     cones: Cones
@@ -46,16 +46,21 @@ class Shafts:
         return len(self.cones)
 
     def together(self, start: np.ndarray) -> Shafts:
-        """Shafts round the shafts of each run from one of `start` (f,) to the next."""
+        """Return bounding shafts (f) of runs of shafts; each run begins at an entry of `start` (f,)."""
         return replace(self, cones=self.cones.together(start), start=self.start[start])
 
     def touch(self, shaft: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
-        """Whether the cones of shafts `shaft` (n,) may touch spheres with `centre` (3, n) and `radius` (n,)."""
+        """Return True (n,) if the cone of each `shaft` (n,) may touch the sphere with `centre` (3, n) and `radius`."""
         return self.cones.touch(shaft, centre, radius)
 
     def hold(self, shaft: np.ndarray, positions: np.ndarray, corners: np.ndarray) -> np.ndarray:
-        """Whether triangles (p,), with `corners` (p, 3) among positions (v, 3), may reach into the shafts (p,); never a
-        false no."""
+        """Return True (p,) if each triangle may reach into its `shaft` (p,). The test is conservative.
+
+        Parameters
+        ----------
+        positions : (v, 3) float64
+        corners : (p, 3) int64, vertices of the triangles
+        """
         left = np.arange(len(shaft))
         for plane in self.planes:
             own, beyond = columns(plane, shaft[left]), np.ones(len(left), dtype=bool)
@@ -97,8 +102,11 @@ class Shafts:
 
 
 def _directions(axis: np.ndarray, ends: np.ndarray, run: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Two unit vectors (3, n) across each axis, and across one another, that along which `ends` (3, k) of rays are
-    spread least first."""
+    """Return two unit vectors (3, n) at right angles to each `axis` (3, n) and to one another.
+
+    Along the first the `ends` (3, k) of the axis's rays are spread least, along the second most. Ray k belongs to axis
+    `run[k]`; the rays of each axis begin at `start` (n,).
+    """
     first, second = across(axis)
     count = np.diff(np.append(start, len(run)))
     x, y = ((end := dot(ends, columns(way, run))) - (np.add.reduceat(end, start) / count)[run]

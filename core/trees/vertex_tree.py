@@ -1,7 +1,7 @@
-"""k-d tree over vertices alone, of which one may stand for all that a node holds.
+"""k-d tree over vertices alone, in which one vertex may represent all vertices of a node.
 
-Nodes hold vertices, not triangles: where the image of a node is smaller than what anybody sees, the vertex nearest its
-middle stands for all, so that the work is bounded by what the picture can show.
+Nodes hold vertices, not triangles. If the image of a node is too small to be seen, the vertex nearest to its centre
+represents them all, so that the work is bounded by what the picture can show.
 """
 from __future__ import annotations
 
@@ -19,14 +19,15 @@ Kind = TypeVar("Kind", bound="VertexTree")
 
 @dataclass(frozen=True)
 class StandIns:
-    """Vertices (k) of which each stands for some.
+    """Representative vertices (k), each for a group of vertices.
 
     Attributes
     ----------
-    held, own : (m,) int64, the vertices that some stand for, and which of the k that is
-    vertex : (k,) int64
-    radius : (k,) float64, of the sphere round it that holds what it stands for
-    node : (k,) int64, which of the nodes that were asked for each is of
+    held : (m,) int64, the vertices that are represented
+    own : (m,) int64, index of the representative of each of them
+    vertex : (k,) int64, the representatives
+    radius : (k,) float64, of the sphere around the representative that holds its group
+    node : (k,) int64, index of the node of each group, among the nodes asked for
     """
 
     held: np.ndarray
@@ -42,8 +43,10 @@ class VertexTree(NodeTree):
 
     @classmethod
     def along_curve(cls: type[Kind], mesh: TriangleMesh, given: Order, order: np.ndarray, *more: np.ndarray) -> Kind:
-        """The tree of vertices `order` (n,) of a mesh in its canonical order, which lie along a space-filling curve;
-        what `more` trees of some kind know comes behind."""
+        """Build the tree of the vertices `order` (n,), sorted along a space-filling curve, of an ordered mesh.
+
+        `more` are further attributes of subclasses.
+        """
         depth = depth_for(len(order), BUCKET)
         # leaf i begins with the first vertex that comes at i parts of the curve or behind
         start = -(-np.arange(2**depth + 1) * len(order) // 2**depth)
@@ -51,19 +54,21 @@ class VertexTree(NodeTree):
         return cls(mesh, given, depth, node_spheres(points, points, start, depth), start, order, *more)
 
     def held(self, level: int, node: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices (m,) in nodes (n,), and in which of the n each is."""
+        """Return the vertices (m,) in nodes `node` (n,) of a level, and the index (m,) of the node of each."""
         begin, end = self.runs(level, node)
         entry, run = ranges(begin, end - begin)
         return self.order[entry], run
 
     def small(self, level: int, node: np.ndarray, scale: np.ndarray, least: float) -> np.ndarray:
-        """Which nodes (n,) are smaller than `least` pixels where a scene unit is `scale` (n,) pixels long."""
-        # an empty one, of radius -inf, has none
+        """Return True for nodes `node` (n,) smaller than `least` pixels; a scene unit is `scale` (n,) pixels long."""
+        # an empty node has the radius -inf and is never small
         return 2.0 * np.abs(self.spheres[level][3, node]) * scale < least
 
     def stand_ins(self, level: int, node: np.ndarray, part: np.ndarray | None = None) -> StandIns:
-        """The vertex nearest the middle of each node (n,), which stands for all that the node holds; or for each `part`
-        (v,) of it one."""
+        """Choose the vertex nearest to the centre of each node `node` (n,) of a level to represent the node's vertices.
+
+        If the `part` (v,) of each vertex is given, choose one for each part within a node.
+        """
         held, run = self.held(level, node)
         own = run
         if part is not None and len(held):

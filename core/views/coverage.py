@@ -1,4 +1,4 @@
-"""Which pixels of the picture triangles cover, or touch: row by row, the runs that lie in each."""
+"""Rasterisation of triangles: the pixels that each covers, or touches, as runs in the picture's rows."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,19 +12,22 @@ LEVEL = 1e-30  # pixels: a side that rises less is level
 
 
 def box(spots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and highest (2, f) of three corners (2, 3, f): much faster than along an axis of three."""
+    """Bounding boxes of triangles: minimum and maximum (2, f) of their corners (2, 3, f).
+
+    Much faster than NumPy's minimum along an axis of three.
+    """
     return (np.minimum(np.minimum(spots[:, 0], spots[:, 1]), spots[:, 2]),
             np.maximum(np.maximum(spots[:, 0], spots[:, 1]), spots[:, 2]))
 
 
 @dataclass(frozen=True)
 class Covered:
-    """Which faces cover which pixels.
+    """Pairs (k) of a face and a pixel that it covers.
 
     Attributes
     ----------
     face, pixel : (k,) int64
-    order : (k,) float64, of the faces there
+    order : (k,) float64, depth order of the face at the pixel
     """
 
     face: np.ndarray
@@ -33,8 +36,15 @@ class Covered:
 
     @classmethod
     def of(cls, corners: np.ndarray, order: np.ndarray, size: tuple[int, int], touched: bool) -> Covered:
-        """Pixels whose middles lie in triangles with `corners` (2, 3, f) and the `order` (3, f) there; or all that they
-        touch, with the greatest order in them."""
+        """Rasterise triangles with `corners` (2, 3, f), in pixels, and depth `order` (3, f) at the corners.
+
+        Parameters
+        ----------
+        size : (int, int), width and height of the picture
+        touched : bool
+            If True, find all pixels that a triangle touches, with its greatest order in each; else the pixels whose
+            centres it covers.
+        """
         none = np.zeros(0, dtype=np.int64)
         parts = [(none, none, np.zeros(0))]
         (_, low), (_, high) = box(corners)
@@ -61,8 +71,13 @@ class Covered:
 
 
 def planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Slopes (2, f) over the picture and base (f,) of what is `order` (3, f) at the corners (2, 3, f); level without an
-    area."""
+    """Fit planes to values `order` (3, f) at the corners (2, 3, f) of triangles in the picture.
+
+    Returns
+    -------
+    slope : (2, f) float64, change by pixel in x and y; zero for triangles without an area
+    base : (f,) float64, value at the picture's origin
+    """
     (ax, ay), (bx, by) = (corners[:, k] - corners[:, 0] for k in (1, 2))
     a, b = (order[k] - order[0] for k in (1, 2))
     area = ax * by - ay * bx
@@ -71,8 +86,11 @@ def planes(corners: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 
 def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) -> tuple[np.ndarray, np.ndarray]:
-    """The first pixel, and the one after the last, of the runs in rows y (r,) that triangles `face` (r,) of those with
-    `corners` (2, 3, f) have there: between the side from the lowest corner to the highest and the two others."""
+    """Find the run of pixels that each triangle `face` (r,) covers, or touches, in a row `y` (r,).
+
+    The run lies between the side from the lowest corner to the highest and the two other sides. `corners` (2, 3, f) are
+    those of all triangles. Returns the first pixel (r,) of each run, and the pixel (r,) after the last.
+    """
     x0, x1, x2, y0, y1, y2, *slopes = columns(_risen(corners), face)
 
     def beside(height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -84,7 +102,7 @@ def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) 
         return np.ceil(np.minimum(one, other) - 0.5), np.ceil(np.maximum(one, other) - 0.5)
     low, high = np.maximum(y, y0), np.minimum(y + 1.0, y2)
     spots = [*beside(low), *beside(high), np.where((low <= y1) & (y1 <= high), x1, x0 + slopes[0] * (low - y0))]
-    # of a triangle without a height, the other end of its longest side
+    # add the upper end of the longest side: a triangle without a height has only its two ends
     spots.append(np.where(high >= y2, x2, spots[0]))
     left, right = spots[0], spots[0]
     for spot in spots[1:]:
@@ -93,8 +111,13 @@ def _spans(corners: np.ndarray, face: np.ndarray, y: np.ndarray, touched: bool) 
 
 
 def _risen(corners: np.ndarray) -> np.ndarray:
-    """(9, f): x and y of the corners (2, 3, f), the lowest first; and by how much x changes with y along the sides from
-    the lowest to the highest, to the middle one, and between these."""
+    """Sort the corners (2, 3, f) of triangles by y, and compute the slopes of the sides.
+
+    Returns
+    -------
+    (9, f) float64: x of the three corners, the lowest first; y of the corners; change of x with y along the sides from
+    the lowest to the highest corner, from the lowest to the middle one, and from the middle one to the highest
+    """
     x, y = list(corners[0]), list(corners[1])
     for one, other in ((0, 1), (1, 2), (0, 1)):
         turned = y[one] > y[other]

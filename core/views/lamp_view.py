@@ -31,15 +31,20 @@ class LampView(View):
     cone: tuple[np.ndarray, float] | None = None
 
     def lights(self, corners: np.ndarray) -> np.ndarray:
-        """Which triangles with `corners` (3, 3, m), as [component, corner, triangle], light may fall on."""
+        """Return True for triangles with `corners` (3, 3, m), as [component, corner, triangle], that may be lit."""
         if self.cone is None:
             return np.ones(corners.shape[2], dtype=bool)
         return in_cone(self.cone, corners - self.eye[:, None, None])
 
 
 def in_cone(cone: tuple[np.ndarray, float], ways: np.ndarray) -> np.ndarray:
-    """Which triangles may lie within a cone, by axis and half angle, to whose corners `ways` (3, 3, m) lead from its
-    apex, as [component, corner, triangle]."""
+    """Return True for triangles (m,) that may overlap a cone.
+
+    Parameters
+    ----------
+    cone : (3,) float64 and float, unit axis and half angle in radians
+    ways : (3, 3, m) float64, vectors from the apex to the corners, as [component, corner, triangle]
+    """
     axis, half = cone
     middle = ways.mean(axis=1)
     radius = norm(ways - middle[:, None]).max(axis=0)

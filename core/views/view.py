@@ -111,7 +111,7 @@ class View:
 
     @cached_property
     def _inverse(self) -> np.ndarray:
-        """(3, 3): from world to eye axes."""
+        """Matrix (3, 3) from world to eye axes."""
         return np.linalg.inv(self.camera_to_world[:3, :3])
 
     @property
@@ -121,36 +121,43 @@ class View:
         return axis / np.linalg.norm(axis)
 
     def directions(self, points: np.ndarray) -> np.ndarray:
-        """View directions d of the rays through `points` (n, 3): P - E, not normalised, or the constant forward."""
+        """Return the directions (n, 3) of the view rays through `points` (n, 3), not normalised.
+
+        These are the points minus the eye, or `forward` in an orthographic view.
+        """
         if self.orthographic:
             return np.broadcast_to(self.forward, points.shape).copy()
         return points - self.eye
 
     def depths(self, points: np.ndarray) -> np.ndarray:
-        """Distances of `points` (n, 3) from the eye's plane, positive in front of it, in scene units, along the eye's
-        own axis."""
+        """Return depths (n,) of `points` (n, 3): distances from the eye's plane along the eye's axis, in scene units.
+
+        Depths are positive in front of the eye.
+        """
         axes = self.camera_to_world[:3, :3]
         sheared = np.abs(axes.T @ axes - np.eye(3)).max() > 4.0 * LOOSE
         return dot(-self._inverse[2] if sheared else self.forward, (points - self.eye).T)
 
     def clip(self, points: np.ndarray) -> np.ndarray:
-        """Homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
+        """Return homogeneous clip coordinates (n, 4) of `points` (n, 3)."""
         return np.stack(self._seen(points, range(4)), axis=1)
 
     @cached_property
     def _towards(self) -> np.ndarray:
-        """(4, 3): from ways in the world to changes of the homogeneous clip coordinates."""
+        """Matrix (4, 3) from vectors in the world to changes of the homogeneous clip coordinates."""
         return self.projection[:, :3] @ self._inverse
 
     def _seen(self, points: np.ndarray, wanted: Iterable[int]) -> list[np.ndarray]:
-        """The `wanted` clip coordinates of `points` (n, 3). Products with so small a matrix are not worth the threads
-        that NumPy's own start for them."""
+        """Return the `wanted` homogeneous clip coordinates, (n,) each, of `points` (n, 3).
+
+        Rows are multiplied one by one: for so small a matrix NumPy's product would start threads that do not pay.
+        """
         offset = np.subtract(points.T, self.eye[:, None], out=np.empty(points.T.shape))
         local = np.stack([dot(row, offset) for row in self._inverse])
         return [dot(self.projection[row], local) + self.projection[row, 3] for row in wanted]
 
     def pixels(self, points: np.ndarray) -> np.ndarray:
-        """Picture positions (n, 2) of `points` (n, 3) in pixels, from the lower left corner, right and up.
+        """Project `points` (n, 3) to pixels (n, 2), from the picture's lower left corner, right and up.
 
         Points on the plane of a perspective eye have no picture: their positions are not finite.
         """
@@ -165,8 +172,10 @@ class View:
         return pixels
 
     def pixel_gradients(self, points: np.ndarray) -> np.ndarray:
-        """Pixels (2, 3, n), as [right or up, component], that the pictures of `points` (3, n) move by where the points
-        move by a scene unit along an axis, in the first order."""
+        """Return the gradients (2, 3, n) of `pixels` at `points` (3, n), in pixels per scene unit.
+
+        Entry [i, j] is the derivative of the position to the right (i = 0) or up (i = 1) by coordinate j.
+        """
         towards = self._towards
         offset = points - self.eye[:, None]
         right, up, depth = (dot(towards[row], offset) + self.projection[row, 3] for row in (0, 1, 3))
@@ -180,7 +189,7 @@ class View:
         return gradients
 
     def rays(self, pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """World origins and unit directions, (n, 3) each, of the rays through `pixels` (n, 2)."""
+        """Return world origins and unit directions, (n, 3) each, of the view rays through `pixels` (n, 2)."""
         ndc = np.asarray(pixels, dtype=np.float64) / self.resolution * 2.0 - 1.0
         scale = np.diag(self.projection)[:2]
         rotation = self.camera_to_world[:3, :3]
@@ -196,7 +205,7 @@ class View:
         return np.broadcast_to(self.eye, directions.shape).copy(), directions
 
     def starts(self, pixels: np.ndarray) -> np.ndarray:
-        """World places (n, 3) from which on the rays through `pixels` (n, 2) see: what lies nearer is cut off."""
+        """Return the world positions (n, 3) of the near clipping plane on the view rays through `pixels` (n, 2)."""
         origins, ways = self.rays(pixels)
         slope, offset = self.projection[2, 2:]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -216,7 +225,7 @@ def _place(given, name: str) -> np.ndarray:
 
 
 def _lens(size: np.ndarray, field_of_view: float, orthographic_scale: float) -> np.ndarray:
-    """The projection onto a picture with sides of the lengths `size` (2,), the longer one 1."""
+    """Make the projection matrix of a picture with sides of the lengths `size` (2,), the longer one 1."""
     width, angle = number(orthographic_scale), number(field_of_view)
     projection = np.zeros((4, 4))
     if not 0.0 <= width <= LARGEST or 0.0 < width < 1.0 / LARGEST:
@@ -235,7 +244,7 @@ def _lens(size: np.ndarray, field_of_view: float, orthographic_scale: float) -> 
 
 
 def _of_ordinary_length(vector: np.ndarray) -> np.ndarray:
-    """A vector's direction with its largest component between 1 and 2, digits as they are."""
+    """Scale a vector by a power of two so that its largest component lies between 1 and 2; no digits change."""
     return np.ldexp(vector, 1 - np.frexp(np.abs(vector).max())[1])
 
 

@@ -1,4 +1,4 @@
-"""What a view is given, looked at before it is one: its placement, its projection and the size of its picture."""
+"""Validation of a view's arguments: its placement, its projection and the size of its picture."""
 from __future__ import annotations
 
 import numpy as np
@@ -18,9 +18,9 @@ _STRETCH = {True: 1e50, False: 1e20}
 
 
 def check_placement(matrix: np.ndarray) -> None:
-    """Raises ValueError where a matrix (4, 4) is no rigid placement."""
+    """Raise ValueError if `matrix` (4, 4) is no rigid placement."""
     axes = matrix[:3, :3]
-    length = np.sqrt((np.clip(axes, -2.0, 2.0)**2).sum(axis=0))  # what is longer is too long, and must not overflow
+    length = np.sqrt((np.clip(axes, -2.0, 2.0)**2).sum(axis=0))  # clip axes that are too long: squares might overflow
     if (np.abs(length - 1.0) > LOOSE).any() or np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > LOOSE:
         raise ValueError("View.camera_to_world must be a rigid placement with axes of unit length and a last row of "
                          "0 0 0 1; take the scale out of it.")
@@ -30,11 +30,11 @@ def check_placement(matrix: np.ndarray) -> None:
 
 
 def check_projection(matrix: np.ndarray) -> None:
-    """Raises ValueError where a matrix (4, 4) is of no camera that shows something."""
+    """Raise ValueError if `matrix` (4, 4) is no perspective or orthographic projection with an image."""
     orthographic = matrix[3, 2] == 0.0
     last = (0.0, 0.0, 0.0, 1.0) if orthographic else (0.0, 0.0, -1.0, 0.0)
     scale = np.abs(np.diag(matrix)[:2])
-    # beside the scale there is but the shift, in the column that the last row tells
+    # besides the scale only the shift may be nonzero, in a column that depends on the kind of projection
     rest = np.abs(np.stack((matrix[[0, 1], [1, 0]], matrix[:2, 2 if orthographic else 3])))
     if np.abs(matrix[3] - last).max() > _EXACT or (rest > _NOTHING * scale).any():
         raise ValueError("View.projection must be the matrix of a perspective or of an orthographic camera, with a "

@@ -1,4 +1,4 @@
-"""A z-buffer: which triangle the centre of each pixel shows, and where on it.
+"""A z-buffer: the triangle seen at the centre of each pixel, and the barycentric coordinates there.
 
 Triangles are drawn in homogeneous coordinates (M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous
 coordinates", Graphics Hardware 1997): the three edge functions of a triangle are the rows of the inverse of the matrix
@@ -21,7 +21,7 @@ FRAGMENTS_AT_ONCE = 1_000_000
 
 @dataclass(frozen=True)
 class Drawn:
-    """What pixels show, along the rows from below; n = width x height.
+    """Visible triangle at each pixel, along the rows from below; n = width x height.
 
     Attributes
     ----------
@@ -35,7 +35,7 @@ class Drawn:
     depth: np.ndarray
 
     def interpolate(self, values: np.ndarray, triangles: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-        """(3, m) of values (v, 3) of the triangles' vertices, at pixels (m,) that show one."""
+        """Interpolate `values` (v, 3) at the vertices of `triangles` (t, 3) to (3, m) at pixels (m,) that show one."""
         corners = triangles[self.triangle[pixel]]
         return sum(self.weights[k, pixel] * values[corners[:, k]].T for k in range(3))
 

@@ -1,7 +1,6 @@
-"""What hides what: the eye's plane, the mirror's own body, things that pass through it, mirrors before the scene.
+"""Occlusion: by the eye's plane, the mirror's own body, objects that pass through it, mirrors before the scene.
 
-In come cameras or polygons; out come those parts that are seen, cut along outlines, which are linear in a camera's
-weights.
+In come cameras or polygons; out come their visible parts, cut along outlines, which are linear in a camera's weights.
 """
 from .clear_panes import slide_share
 from .eye_plane import cut_before_eye

@@ -12,15 +12,19 @@ from ..trees import Balls, SceneTree, curve_leaves, depth_for
 SHARES = (1.0, 0.5, 0.25, 0.125)
 """Of what layers slide elsewhere. In single precision a smaller share would mix up layers that lie close together: at
 an eighth, pictures 2 cm before a wall are still told from it, 8 m from a mirror that is 3 m away."""
-TOUCHING = 1.0 / 64.0  # of what layers slide: what is closer lies on the mirror, and no share keeps layers behind it
-FAMILY = 16  # cameras that are looked at together
+TOUCHING = 1.0 / 64.0  # share of the distance that layers slide: closer panes lie on the mirror, before all layers
+FAMILY = 16  # cameras per bounding sphere
 
 
 def slide_share(cameras: Cameras, met: SceneAndMirrors) -> tuple[float, int]:
-    """Return the share of what layers slide elsewhere that keeps them behind triangles that let light through; 1 if
-    there are none. And how many open ones are too close for any: they hide what lies behind them.
+    """Choose a share of the distance that layers slide that keeps them behind triangles that let light through.
 
-    It is one for all of the mirror: where it changed between the corners of a face, layers would cross.
+    The share is the same all over the mirror: if it changed between the corners of a face, layers would cross.
+
+    Returns
+    -------
+    share : float, one of `SHARES`; 1 if no triangle lets light through
+    close : int, number of triangles that let light through, but are too close for any share: they hide layers behind
     """
     mesh, opacities = met.tree.mesh, met.opacities
     asked = np.flatnonzero(~opacities.stops_light(np.arange(len(mesh.triangles))))

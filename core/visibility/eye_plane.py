@@ -14,20 +14,25 @@ from ..geometry import TriangleMesh, cross, dot, norm, rows
 from ..polygons import ConvexPolygons, Line
 from ..views import View
 
-ON_PLANE = 1e-12  # of the distance from an orthographic eye: nearer to its plane is on it by rounding
-LEAST = 0.5  # of what a perspective eye can see: as near to its plane are triangles cut
+ON_PLANE = 1e-12  # share of the distance from an orthographic eye: points nearer to its plane lie on it by rounding
+LEAST = 0.5  # share of the least depth that a perspective eye can see of a triangle: the triangle is cut there
 
 
 def cut_before_eye(cameras: Cameras) -> Cameras:
-    """The cameras, those across the eye's plane without what lies behind it."""
+    """Cut cameras that cross the eye's plane; return all cameras without their parts behind that plane."""
     view = cameras.view
     whole, parent, weights = _before(view, cameras.places[:, cameras.corners.T])
     return cameras if whole.all() else with_pieces(cameras, whole, parent, weights)
 
 
 def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:
-    """The triangles `chosen` (n,) of a mesh before the eye, and for each of the result which one of the mesh it is or
-    is a part of; without normals."""
+    """Return the parts before the eye of the triangles `chosen` (n,) of a mesh.
+
+    Returns
+    -------
+    parts : TriangleMesh, without normals
+    owner : (m,) int64, triangle of `mesh` that each triangle of `parts` is a part of
+    """
     corners = rows(mesh.positions[mesh.triangles[chosen].T])
     whole, parent, weights = _before(view, corners)
     if not len(parent):
@@ -40,8 +45,14 @@ def triangles_before_eye(view: View, mesh: TriangleMesh, chosen: np.ndarray) -> 
 
 
 def _before(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which triangles, corners (3, 3, n) as [component, corner], lie before the eye whole; and the parts of others:
-    which triangle each is of, and its corners' weights (3, 3, m), entry [i, k]: weight i of corner k."""
+    """Clip triangles with `corners` (3, 3, n), as [component, corner, triangle], against the eye's plane.
+
+    Returns
+    -------
+    whole : (n,) bool, True for triangles that lie entirely before the eye
+    parent : (m,) int64, triangle of each part of the others
+    weights : (3, 3, m) float64, barycentric coordinates of the parts' corners, entry [i, k]: weight i of corner k
+    """
     count = corners.shape[2]
     depth = view.depths(corners.reshape(3, -1).T).reshape(3, count)
     whole = np.all(depth > 0.0, axis=0)
@@ -52,7 +63,10 @@ def _before(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np
 
 
 def _least_depth(view: View, corners: np.ndarray) -> np.ndarray:
-    """How near to the eye's plane what the picture holds of triangles may come."""
+    """Return the depth (n,) at which to cut each triangle: nearer parts cannot be in the picture.
+
+    `corners` (3, 3, n) are those of the triangles, as [component, corner, triangle].
+    """
     if view.orthographic:
         return ON_PLANE * np.abs(corners - view.eye[:, None, None]).max(axis=(0, 1))
     a, b, c = np.moveaxis(corners, 1, 0)

@@ -1,10 +1,10 @@
-"""What triangles hide of cameras, and the cameras without it.
+"""Parts of cameras that triangles hide from the eye, and removal of these parts.
 
-As seen from the eye the part that a triangle hides is convex: inside the triangle's three sides, each a plane through
-the eye, and behind its plane; of one that reaches behind the plane of an orthographic eye, what that part hides which
-lies before it. All are linear in the camera's weights. The borders of such parts that no two triangles side by side
-share are outlines of what hides, or lines in which it meets the mirror; along these a camera is cut, and of the pieces
-those are kept whose middle the eye sees.
+As seen from the eye the part that a triangle hides is convex: it lies inside the triangle's three sides, each a plane
+through the eye, and behind the triangle's plane. Of a triangle that reaches behind the plane of an orthographic eye,
+only the part before that plane hides anything. All these functions are linear in the camera's weights. The borders of
+such parts that no two adjacent triangles share are outlines of the occluders, or lines in which they meet the mirror. A
+camera is cut along these, and the pieces are kept whose centre the eye sees.
 """
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ from ..geometry import (
 from ..polygons import SMALLEST, ConvexPolygons, Line, Lines, divide
 from .picture_pairs import PAIRS_AT_ONCE
 
-DEEPER = 1e-6  # of the mirror's size: how far behind a triangle's plane hidden places lie; doubled faces hide nothing
-FLAT = 1e-9  # sine of the angle at which the eye looks along a triangle, or of its own: what hides nothing
+DEEPER = 1e-6  # share of the mirror's size: least depth of hidden places behind a triangle; doubled faces hide nothing
+FLAT = 1e-9  # sine of a triangle's angle to the view, or of its own angle: flatter triangles hide nothing
 MOST_HIDING = 1 << 18  # pairs of a camera and a triangle that hides a part of it; cameras with the most stay whole
 
 
@@ -62,8 +62,11 @@ class HiddenParts(ColumnArrays):
     @classmethod
     def of(cls, cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray,
            deeper: np.ndarray | float) -> HiddenParts:
-        """What the triangles of pairs of a camera and a column hide, `deeper` behind their planes than so many scene
-        units, of each pair (p,) or of all, without the pairs in which that is nothing."""
+        """Compute the hidden parts in pairs of a `camera` (p,) and a triangle `column` (p,) of the frames.
+
+        Only places more than `deeper` scene units behind the triangle's plane are hidden: one number for each pair
+        (p,) or for all. Pairs without a hidden part are dropped.
+        """
         sides, eye, solid = _sides(cameras, frames, camera, column)
         sides[3] -= deeper * norm(frames.normal)[column]
         chosen = np.flatnonzero(solid & (sides.max(axis=1) > 0.0).all(axis=0))
@@ -74,18 +77,20 @@ class HiddenParts(ColumnArrays):
 
     @property
     def entire(self) -> np.ndarray:
-        """(q,): whether the part is all of its camera."""
+        """True (q,) for parts that cover their whole camera."""
         return self.parts.areas > 1.0 - SMALLEST
 
     def nearest(self, orthographic: bool) -> np.ndarray:
-        """(q,): how close behind its plane each part begins, as a share of the way to the eye; in orthographic views in
-        scene units."""
+        """Return the least depth (q,) of each part behind its triangle's plane.
+
+        It is a share of the distance to the eye, or in `orthographic` views in scene units.
+        """
         depth = (self.parts.weights * self.sides[3][:, self.parts.polygon]).sum(axis=0)
         least = np.maximum(np.minimum.reduceat(depth, self.parts.start[:-1]), 0.0)
         return least / (self.eye if orthographic else least + self.eye)
 
     def outlines(self, view, frames: SceneFrames) -> Lines:
-        """The borders of the parts that no two triangles side by side share, in each camera."""
+        """Return the borders of the parts that no two adjacent triangles share, in each camera."""
         corner = np.flatnonzero(self.parts.after >= Line.SCENE_EDGE)
         pair, label = self.parts.polygon[corner], self.parts.after[corner].astype(np.int64) - Line.SCENE_EDGE
         on_side, own = label < 3, np.arange(len(pair))
@@ -110,9 +115,19 @@ class HiddenParts(ColumnArrays):
 
     def cut_off(self, cameras: Cameras, shown: np.ndarray, lines: Lines,
                 most: int) -> tuple[Cameras, np.ndarray, np.ndarray, int]:
-        """The cameras that are `shown` (n,) without these parts, cut along `lines` into not many more than `most`
-        pieces; which of them were cut; what each piece behind the others is a piece of; and how many are not cut along
-        all lines."""
+        """Remove these parts from the `cameras` (n): cut them along `lines` into about `most` pieces, keep the visible.
+
+        Parameters
+        ----------
+        shown : (n,) bool, False for cameras that are hidden entirely
+
+        Returns
+        -------
+        cameras : Cameras, those that were not cut, then the pieces (p)
+        cut : (c,) int64, cameras that were cut
+        parent : (p,) int64, camera that each piece is a part of
+        left : int, number of cameras that were not cut along all their lines
+        """
         cut, pieces_of = np.unique(self.camera), np.zeros(0, dtype=np.int64)
         if not len(cut):
             return cameras.select(shown), cut, pieces_of, 0
@@ -124,8 +139,13 @@ class HiddenParts(ColumnArrays):
         return with_pieces(cameras, whole, parent, triangles), cut, parent, len(left)
 
     def _seen(self, cut: np.ndarray, pieces: ConvexPolygons) -> tuple[np.ndarray, np.ndarray]:
-        """The pieces of the cameras `cut` that no triangle hides, as triangles: the camera each lies in and its
-        corners' weights (3, 3, n)."""
+        """Return the `pieces` of the cameras `cut` (c,) that no triangle hides, as triangles.
+
+        Returns
+        -------
+        parent : (n,) int64, camera that each triangle lies in
+        weights : (3, 3, n) float64, weights of its corners there, entry [i, k]: weight i of corner k
+        """
         middle, order = pieces.middles, in_order(self.camera)
         start, count = between(self.camera[order], cut[pieces.owner], cut[pieces.owner])
         seen = np.ones(len(pieces), dtype=bool)
@@ -133,7 +153,7 @@ class HiddenParts(ColumnArrays):
             entry, piece = ranges(start[part], count[part])
             piece += part.start
             hiding = columns(order, entry)
-            # most pairs are told apart by the first side or two
+            # the first side or two decide most pairs
             for side in self.sides:
                 behind = np.flatnonzero(dot(columns(side, hiding), columns(middle, piece)) > 0.0)
                 hiding, piece = hiding[behind], piece[behind]
@@ -144,8 +164,13 @@ class HiddenParts(ColumnArrays):
 
 
 def _places(frames: SceneFrames, column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (3, n) for the corners of the triangles `column` (n,), the same for all that lie in one place; and the
-    places (3, k) of these."""
+    """Number the distinct places of the corners of triangles `column` (n,).
+
+    Returns
+    -------
+    number : (3, n) int64, index of each corner's place; corners in one place share it
+    place : (3, k) float64
+    """
     vertex, number = distinct(frames.vertices[:, column].ravel())
     place, same = np.unique(frames.positions[vertex], axis=0, return_inverse=True)
     return same.reshape(-1)[number].reshape(3, -1), rows(place)
@@ -153,8 +178,14 @@ def _places(frames: SceneFrames, column: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def _sides(cameras: Cameras, frames: SceneFrames, camera: np.ndarray,
            column: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The functions and the eye's distance as `HiddenParts` has them, (4 or 5, 3, p) and (p,); and which triangles are
-    not seen edge on, when they hide nothing."""
+    """Compute `HiddenParts.sides` and `HiddenParts.eye` of pairs of a `camera` (p,) and a triangle `column` (p,).
+
+    Returns
+    -------
+    sides : (4 or 5, 3, p) float64
+    eye : (p,) float64
+    solid : (p,) bool, False for triangles that are seen edge on, which hide nothing
+    """
     view = cameras.view
     places = np.take(cameras.places, cameras.corners[camera].T, axis=1)
     vertices = rows(frames.positions[frames.vertices[:, column]])

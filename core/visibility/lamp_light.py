@@ -1,4 +1,4 @@
-"""What a lamp sees of a mirror: nothing behind what stands before it, and in each of its views its own part alone."""
+"""Parts of a mirror that a lamp lights: not shadowed by other objects, and within the borders of the lamp's view."""
 from __future__ import annotations
 
 import numpy as np
@@ -10,8 +10,17 @@ from ..views import LampView, View
 
 
 def with_shades(view: View, mirror: TriangleMesh, faces: np.ndarray) -> tuple[TriangleMesh, np.ndarray]:
-    """The mirror with what may stand before it, behind its own triangles, and which triangles may be seen, `faces` of
-    the mirror and all that shade."""
+    """Append the occluders of a lamp's view to the mirror.
+
+    Parameters
+    ----------
+    faces : (n,) int64, triangles of the mirror that may be seen
+
+    Returns
+    -------
+    mesh : TriangleMesh, the mirror's triangles, then the occluders'
+    chosen : (m,) int64, triangles of it that may be seen: `faces`, and the occluders that are not edge on
+    """
     if not isinstance(view, LampView) or view.shades is None or not len(view.shades.triangles):
         return mirror, faces
     shades = view.shades
@@ -20,14 +29,14 @@ def with_shades(view: View, mirror: TriangleMesh, faces: np.ndarray) -> tuple[Tr
 
 
 def lit(cameras: Cameras) -> np.ndarray:
-    """Which cameras (n,) a lamp's light may fall on, if the view is a lamp's."""
+    """Return True for cameras (n,) that the lamp's light may reach; for all if the view is not a lamp's."""
     if not isinstance(cameras.view, LampView):
         return np.ones(len(cameras), dtype=bool)
     return cameras.view.lights(np.take(cameras.places, cameras.corners.T, axis=1))
 
 
 def cut_at_borders(cameras: Cameras) -> Cameras:
-    """The cameras; of a lamp's view those across the borders of its picture without what lies beyond."""
+    """Cut cameras of a lamp's view at the borders of its picture; drop the parts beyond. Other views keep theirs."""
     view = cameras.view
     if not isinstance(view, LampView):
         return cameras

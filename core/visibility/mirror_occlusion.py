@@ -1,8 +1,8 @@
-"""What mirrors hide in a mirror: its own body and that of others, cut away exactly.
+"""Exact occlusion by mirrors of reflected polygons: by the mirror's own body and by other mirrors.
 
-Of the triangles of mirrors that a camera sees, only outlines bound what they hide: sides over which no mirror goes on,
-or over which it folds back. All polygons of the camera are cut along these lines, and every piece is then hidden
-as a whole, or not at all. Where something passes through a mirror, the line of their contact cuts it too.
+Of the mirror triangles that a camera sees, only outlines bound the hidden region: sides at which the mirror ends or
+folds back. All polygons of the camera are cut along these lines; each piece is then hidden entirely, or not at all. If
+something passes through a mirror, it is also cut along the line of contact.
 """
 from __future__ import annotations
 
@@ -12,16 +12,22 @@ from ..culling import Candidates, SceneAndMirrors
 from ..geometry import between, columns, dot, groups, in_order, largest, mask, others, ranges, shares, smallest
 from ..polygons import Line, Lines, Polygons, clip, divide, scene_edges
 
-MOST_PIECES = 1 << 20  # what is not cut along all outlines is hidden or not by its middle
-NEARER = 1e-9  # of the distance: what is nearer by less is the same surface
-CONTACTS = 8  # triangles of mirrors that one polygon passes through
-CROSSING = 1e-6  # of the largest depth in a camera: a smaller one is none
+MOST_PIECES = 1 << 20  # pieces in all; one that is not cut along all outlines is hidden or not by its centre
+NEARER = 1e-9  # share of the distance: a surface that is nearer by less is the same surface
+CONTACTS = 8  # triangles of mirrors that one polygon passes through, at most
+CROSSING = 1e-6  # share of the largest depth difference in a camera: smaller differences are no crossing
 PAIRS_AT_ONCE = 32768  # fit the cache
 
 
 def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygons, int, int]:
-    """The polygons without what mirrors hide from the cameras; how many were hidden or cut; and how many cameras hold
-    more outlines or contacts of mirrors than are cut along."""
+    """Cut away the parts of polygons that mirrors hide from their cameras.
+
+    Returns
+    -------
+    polygons : Polygons, the visible parts
+    hidden : int, number of polygons that were hidden or cut
+    undecided : int, number of cameras with too many outlines or contacts of mirrors to cut along all of them
+    """
     candidates = polygons.candidates
     mirror = np.flatnonzero(met.are_mirrors(candidates))
     if not len(mirror):
@@ -38,8 +44,13 @@ def cut_behind_mirrors(met: SceneAndMirrors, polygons: Polygons) -> tuple[Polygo
 
 
 def _along_outlines(lines: Lines, polygons: Polygons) -> tuple[Polygons, np.ndarray]:
-    """The polygons in pieces, cut along the outlines of the mirrors in their cameras; and the cameras (k,) of those
-    that are not cut along all of them."""
+    """Cut polygons along the outlines of the mirrors in their cameras.
+
+    Returns
+    -------
+    pieces : Polygons
+    many : (k,) int64, cameras of polygons that were not cut along all their outlines
+    """
     first = np.searchsorted(lines.camera, np.arange(len(polygons.candidates.cameras) + 1))
     line, polygon = ranges(first[polygons.camera], np.diff(first)[polygons.camera])
     low, high = polygons.extents(polygons.weights)
@@ -52,7 +63,7 @@ def _along_outlines(lines: Lines, polygons: Polygons) -> tuple[Polygons, np.ndar
 
 
 def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
-    """Outlines of the mirrors `seen`, sorted by camera."""
+    """Return the outlines of the mirror triangles in the candidates `seen`, sorted by camera."""
     polygons = clip(seen)
     corner = np.flatnonzero(scene_edges(polygons.after))
     side = polygons.after[corner].astype(np.int64) - Line.SCENE_EDGE
@@ -69,8 +80,18 @@ def _outlines(met: SceneAndMirrors, seen: Candidates) -> Lines:
 
 
 def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, int, np.ndarray]:
-    """The polygons that no mirror hides, of the candidates `mirror`; those that pass through one are cut in the line of
-    contact. How many were hidden or cut, and the cameras of those that pass through too many."""
+    """Drop polygons that mirrors hide; cut polygons that pass through a mirror along the line of contact.
+
+    Parameters
+    ----------
+    mirror : (n,) int64, candidates whose triangles are mirrors
+
+    Returns
+    -------
+    polygons : Polygons, the visible ones
+    hidden : int, number of polygons that were hidden or cut
+    left : (k,) int64, cameras of polygons that pass through too many mirror triangles
+    """
     order = mirror[in_order(polygons.candidates.camera[mirror])]
     seen, hidden = [polygons.select(slice(0, 0))], 0
     for _ in range(CONTACTS):
@@ -86,8 +107,14 @@ def _before_mirrors(mirror: np.ndarray, polygons: Polygons) -> tuple[Polygons, i
 
 
 def _hidden(mirror: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The polygons (k,) that pass through a mirror, of the candidates `mirror`, sorted by camera; which one (k,) they
-    pass through; and which polygons (q,) are hidden in their middles."""
+    """Test polygons (q) against the mirror triangles in their cameras: the candidates `mirror`, sorted by camera.
+
+    Returns
+    -------
+    passing : (k,) int64, polygons that pass through a mirror triangle
+    through : (k,) int64, candidate of that triangle
+    behind : (q,) bool, True for polygons whose centre is hidden
+    """
     camera = polygons.candidates.camera[mirror]
     start, count = between(camera, polygons.camera, polygons.camera)
     answers = []
@@ -100,7 +127,10 @@ def _hidden(mirror: np.ndarray, polygons: Polygons) -> tuple[np.ndarray, np.ndar
 
 
 def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
-    """The parts of polygons beside the mirror triangles `other` and before them; others may hide them still."""
+    """Return the parts of polygons (k) outside their mirror triangle, candidate `other` (k,), and those before it.
+
+    Other mirrors may still hide them.
+    """
     candidates = polygons.candidates
     parts, rest, own = [], polygons, np.arange(len(other))
     # a triangle whose plane crosses the camera's mirror lies behind it for a part of the rays
@@ -116,12 +146,14 @@ def _not_behind(other: np.ndarray, polygons: Polygons) -> list[Polygons]:
 
 def _behind(other: np.ndarray, polygon: np.ndarray,
             polygons: Polygons) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of pairs of a mirror's candidate `other` and a polygon, rising: the polygons that pass through one, each once,
-    and the first that they pass through; and which polygons (q,) are hidden in their middles."""
+    """Test pairs of a mirror's candidate `other` (n,) and a `polygon` (n,), increasing; return as `_hidden` does.
+
+    Each polygon that passes through mirror triangles is returned once, with the first of them.
+    """
     candidates = polygons.candidates
     own, hidden = polygons.pair[polygon], np.zeros(len(polygons), dtype=bool)
     hidden[polygon[_hides(candidates, other, own, columns(polygons.middles, polygon))]] = True
-    # only where the planes meet in the camera may a polygon pass through the mirror, and only where both are
+    # a polygon can pass through a mirror only if their planes cross in the camera, within both of them
     order = _depth_order(candidates, other, own)
     mixed = np.flatnonzero((smallest(order) < 0.0) & (largest(order) > 0.0))
     mixed = mixed[_changes_sign(polygons.select(polygon[mixed]), order[:, mixed])]
@@ -135,15 +167,20 @@ def _behind(other: np.ndarray, polygon: np.ndarray,
 
 
 def _changes_sign(polygons: Polygons, corner_values: np.ndarray) -> np.ndarray:
-    """Whether a function, given at the corners of the cameras (3, q), is positive and negative on each polygon."""
+    """Return True (q,) for polygons on which a function is positive at one corner and negative at another.
+
+    The function is linear in the weights, with `corner_values` (3, q) at the corners of the polygons' cameras.
+    """
     low, high = polygons.extents((polygons.weights * np.repeat(corner_values, polygons.size, axis=1)).sum(axis=0))
     least = CROSSING * np.abs(corner_values).max(axis=0)
     return (low < -least) & (high > least)
 
 
 def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Whether rays at `weights` (3, n) of the cameras meet the mirror triangles of the candidates `other` (n,) before
-    they meet the planes of the candidates `own`."""
+    """Return True (n,) if a camera's ray meets the mirror triangle of `other` (n,) before the plane of `own` (n,).
+
+    `other` and `own` are candidates in the same camera; `weights` (3, n) give the ray.
+    """
     sides = [dot(columns(side, other), weights) for side in candidates.sides]
     inside = (sides[0] >= 0.0) & (sides[1] >= 0.0) & (sides[2] >= 0.0) & (other != own)
     met = np.flatnonzero(inside)
@@ -156,6 +193,9 @@ def _hides(candidates: Candidates, other: np.ndarray, own: np.ndarray, weights: 
 
 
 def _depth_order(candidates: Candidates, other: np.ndarray, own: np.ndarray) -> np.ndarray:
-    """(3, n): at the cameras' corners, positive where the planes of `own` are met before those of `other`."""
+    """Compare depths at the cameras' corners (3, n): positive where the plane of `own` is met before that of `other`.
+
+    `other` and `own` (n,) are candidates in the same camera.
+    """
     return (columns(candidates.ahead, other) * columns(candidates.rate, own)
             - columns(candidates.ahead, own) * columns(candidates.rate, other))

@@ -30,8 +30,8 @@ class DepthGrid:
     nearest : (height, width) float64, -inf where a sample sees no mirror
     layers : (height, width) int64, cameras at each sample, hidden ones too
     scale : float, samples per pixel
-    room : float, share of the nearness, or for an orthographic view depth, by which two samples of one surface differ
-    relative : bool, whether it is a share
+    room : float, difference of nearness, or share of it if `relative`, up to which two samples lie on one surface
+    relative : bool, False for orthographic views
     """
 
     nearest: np.ndarray
@@ -42,7 +42,7 @@ class DepthGrid:
 
     @classmethod
     def of(cls, cameras: Cameras) -> tuple[DepthGrid, np.ndarray]:
-        """The grid of cameras (n,), and which of them the eye may see."""
+        """Sample cameras (n) on a grid; return the grid, and True (n,) for cameras that the eye may see."""
         view = cameras.view
         depth, corners = view.depths(cameras.places.T), cameras.corners.T
         spots = np.nan_to_num(rows(view.pixels(cameras.places.T)))
@@ -65,7 +65,7 @@ class DepthGrid:
         spots *= scale
         parts = [before[part] for part in shares(count, SAMPLES_AT_ONCE)]
         shows, hides = np.zeros(len(cameras), dtype=bool), np.zeros(len(cameras), dtype=bool)
-        # one share, as nearly always, is worked out once; of more only one is held at a time
+        # keep the samples of a single share, the usual case; of several shares hold only one at a time
         kept = list(grid._samples(spots, order, parts)) if len(parts) == 1 else None
         for _, pixel, nearness in kept or grid._samples(spots, order, parts):
             np.maximum.at(grid.nearest.ravel(), pixel, nearness)
@@ -79,26 +79,35 @@ class DepthGrid:
 
     @property
     def mirror_pixels(self) -> int:
-        """About how many pixels see the mirror."""
+        """Approximate number of pixels that see the mirror."""
         return round(float(np.isfinite(self.nearest).sum()) / self.scale**2)
 
     def _samples(self, spots: np.ndarray, order: np.ndarray,
                  parts: list[np.ndarray]) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Of parts of the triangles with corners at `spots` (2, 3, n) of the grid and the nearness `order` (3, n):
-        which lies at which samples, row after row, and how near."""
+        """Rasterise triangles on the grid; yield triangle, sample and nearness of all covered samples, part by part.
+
+        Parameters
+        ----------
+        spots : (2, 3, n) float64, corners of the triangles, in samples
+        order : (3, n) float64, nearness of the corners
+        parts : list of int64 arrays, triangles to rasterise at a time
+        """
         height, width = self.nearest.shape
         for part in parts:
             own = order[:, part]
             covered = Covered.of(spots[:, :, part], own, (width, height), False)
-            # in a sliver the plane may rise by anything
+            # clamp the nearness: in a sliver the plane may be arbitrarily steep
             nearness = np.clip(covered.order, smallest(own)[covered.face], largest(own)[covered.face])
             yield part[covered.face], covered.pixel, nearness
 
     @np.errstate(over="ignore", invalid="ignore")
     def _hides(self, spots: np.ndarray, order: np.ndarray) -> np.ndarray:
-        """Which corners (3, n) of triangles at `spots` (2, 3, n) of the grid lie behind nearer parts: at all four
-        samples round them the triangle's own plane, of the nearness `order` (3, n), does."""
-        # an oblique triangle must not be hidden by its own nearer parts
+        """Return True for corners (3, n) of triangles that lie behind nearer parts of the mirror.
+
+        A corner does if the triangle's own plane lies behind the nearest surface at all four samples around it.
+        `spots` (2, 3, n) are the corners, in samples, `order` (3, n) their nearness.
+        """
+        # compare with the triangle's plane, so that an oblique triangle is not hidden by its own nearer parts
         slope, base = planes(spots, order)
         height, width = self.nearest.shape
         hidden, (column, row) = np.ones(order.shape, dtype=bool), np.floor(spots - 0.5)
@@ -113,6 +122,6 @@ class DepthGrid:
 
 
 def without_hidden(cameras: Cameras) -> tuple[Cameras, DepthGrid]:
-    """The cameras that the eye may see, and the grid."""
+    """Return the cameras that the eye may see, and the grid that tells it."""
     grid, kept = DepthGrid.of(cameras)
     return cameras.select(kept), grid

@@ -17,12 +17,23 @@ PAIRS_AT_ONCE = 1 << 17
 
 def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, taken: np.ndarray,
                      scale: float) -> Iterable[tuple[np.ndarray, np.ndarray]] | None:
-    """Pairs of cameras and triangles of a mesh, parts of the mirror's triangles that `owner` (m,) names, -1 for none,
-    and no camera's own, whose boxes in the picture overlap in some of the cells `taken` (height, width), `scale` of
-    them a pixel, or beside one; each once, in shares. What is not before the eye has no box.
+    """Find pairs of cameras and triangles whose bounding boxes overlap in the picture, in portions, each pair once.
 
-    Cells are made as coarse as gives the least work: large triangles share many small cells. None where
-    there would be more than `MOST_PAIRS`.
+    Boxes are compared by cells of a grid, as coarse as gives the least work. Cameras and triangles that are not before
+    the eye have no box.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh, with m triangles
+    owner : (m,) int64
+        Mirror triangle that each is a part of, -1 for none; a camera is not paired with parts of its own triangle.
+    taken : (height, width) bool
+        Cells to search; boxes must overlap in one of them or beside it.
+    scale : float, cells per pixel
+
+    Returns
+    -------
+    Iterable of cameras (p,) and triangles (p,), or None if there would be more than `MOST_PAIRS`
     """
     view = cameras.view
     height, width = taken.shape
@@ -49,7 +60,7 @@ def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, ta
 
 def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple,
              cells: list) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
-    """Pairs whose boxes, of cameras and of triangles, overlap, found by the cells that they share."""
+    """Yield cameras (p,) and triangles (p,) whose boxes overlap, found by the cells that they share."""
     (cell, camera), (other_cell, column) = cells
     boxes, others = boxes
     order = in_order(camera)  # all that is said of one camera comes together
@@ -71,8 +82,10 @@ def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple,
 
 
 def _boxes(view: View, corners: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Boxes `low` and `high` (n, 2) of triangles (3, n, 3) in cells of the grid; those that are not before the eye
-    have none: theirs end before they begin."""
+    """Compute bounding boxes of triangles with `corners` (3, n, 3), from `low` to `high` (n, 2), in cells of the grid.
+
+    Triangles that are not before the eye get an empty box, with `low` above `high`.
+    """
     flat = corners.reshape(3, -1).T
     before = np.all((view.depths(flat) > 0.0).reshape(-1, 3), axis=1)
     pixels = np.nan_to_num(view.pixels(flat)).reshape(-1, 3, 2) * scale
@@ -81,13 +94,13 @@ def _boxes(view: View, corners: np.ndarray, scale: float) -> tuple[np.ndarray, n
 
 
 def _halved(taken: np.ndarray) -> np.ndarray:
-    """Cells of twice the size, which hold any of those `taken`."""
+    """Halve the resolution of the cells `taken`: a coarse cell is taken if any of its four cells is."""
     taken = np.pad(taken, ((0, taken.shape[0] % 2), (0, taken.shape[1] % 2)))
     return taken[::2, ::2] | taken[1::2, ::2] | taken[::2, 1::2] | taken[1::2, 1::2]
 
 
 def _extents(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First cell of each box and the cell behind its last, (2, n) each, column and row."""
+    """Return the first cell of each box and the cell after its last, (2, n) each, as column and row."""
     size = taken.shape[::-1]
     first = np.clip(np.floor(boxes[0] / 2.0**level), 0, size).astype(np.int64)
     behind = np.clip(np.floor(boxes[1] / 2.0**level) + 1, 0, size).astype(np.int64)
@@ -95,7 +108,7 @@ def _extents(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray
 
 
 def _cells(boxes: tuple[np.ndarray, np.ndarray], level: int, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The cells among those `taken` that each box touches, and which box."""
+    """Return pairs (p,) of a cell, of those `taken`, and a box that touches it."""
     first, behind = _extents(boxes, level, taken)
     y, row = ranges(first[1], behind[1] - first[1])
     x, run = ranges(first[0, row], (behind - first)[0, row])

@@ -1,7 +1,7 @@
-"""Contacts: where the scene stands on the mirror or cuts through it, what it hides from quite near is cut off.
+"""Contacts: where the scene stands on the mirror or cuts through it, closely hidden parts of cameras are cut off.
 
-Such a part of a camera is hidden from the eye at a distance that goes to zero along the line of contact; what it
-reflects would come out before what hides it once it slides towards the eye.
+The distance between such a part of a camera and its occluder goes to zero along the line of contact. The reflection
+there would come out in front of the occluder when it slides towards the eye.
 """
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
 from .picture_pairs import PAIRS_AT_ONCE, pairs_in_picture
 
 AGAIN = 4  # pairs that are looked at again after cutting, to one that may be left
-CELLS = 256.0  # across the wider side of the picture, for what lies over what
+CELLS = 256.0  # grid cells across the wider side of the picture, to find overlaps
 
 
 def drop_behind_contacts(candidates: Candidates, maximum: int,
                          again: Callable[[Cameras, tuple[np.ndarray, np.ndarray]], Candidates],
                          opacities: Opacities = Opacities(),
                          slide: float = 1.0) -> tuple[Candidates, np.ndarray, int, int]:
-    """Candidates of cameras without the parts that triangles hide from as near as layers slide, or at least those that
-    `maximum` cameras allow.
+    """Cut off the parts of cameras that triangles hide closer than layers slide, up to about `maximum` pieces.
 
     Parameters
     ----------
-    again : callable, the candidates among pairs of a camera and a column, asked for the pieces of cameras that were cut
-    opacities : Opacities, of the triangles; those that may be covered cut nothing off
-    slide : float, share of what layers slide before other mirrors
+    again : callable, finds the candidates among pairs of a camera and a column, for the pieces of cut cameras
+    opacities : Opacities, of the triangles; triangles that may be covered cut nothing off
+    slide : float, share of the usual distance that layers slide
 
     Returns
     -------
     candidates : Candidates
-    crowd : (n,) bool, cameras too crowded to be looked at again
-    count, left : int, how many were cut, and how many were not, or not along all outlines
+    crowd : (n,) bool, True for cameras with too many candidates to search again
+    count : int, number of cameras that were cut
+    left : int, number of cameras that were not cut, or not along all outlines
     """
     cameras, frames = candidates.cameras, candidates.frames
     found, left = _hidden_closely(candidates, opacities, slide * (GAP + DEPTH))
@@ -57,7 +57,7 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
     whole = shown.copy()
     whole[cut] = False
     now, before = numbered(given, whole), int(whole.sum())
-    # what else may be seen in a camera is asked of its pieces
+    # find the other candidates of a cut camera again, for each of its pieces
     asked = np.flatnonzero(mask(given, cut)[candidates.camera])
     camera, column = candidates.camera[asked], candidates.column[asked]
     crowd, piece = np.zeros(len(cameras), dtype=bool), before + np.arange(len(parent))
@@ -71,9 +71,16 @@ def drop_behind_contacts(candidates: Candidates, maximum: int,
 
 def _hidden_closely(candidates: Candidates, opacities: Opacities,
                     slid: float) -> tuple[tuple[HiddenParts, np.ndarray] | None, int]:
-    """Parts of cameras that triangles hide from so near that layers, which slide by `slid` of the distance, would come
-    out through them, and which cameras (n,) one of them does not hide altogether, None where none comes as near; and of
-    how many cameras that was not asked."""
+    """Find parts of cameras that triangles hide so closely that layers would come out in front of the triangles.
+
+    Layers slide towards the eye by the share `slid` of the distance.
+
+    Returns
+    -------
+    found : tuple or None
+        The hidden parts, and True (n,) for cameras that no triangle hides entirely; None if no triangle is so near.
+    left : int, number of cameras that were tested against nearby triangles behind the eye only
+    """
     cameras, frames, view = candidates.cameras, candidates.frames, candidates.cameras.view
     size = float(np.ptp(cameras.places, axis=1).max(initial=0.0))
     room = slid * (np.full(len(cameras), size) if view.orthographic else
@@ -98,9 +105,20 @@ def _hidden_closely(candidates: Candidates, opacities: Opacities,
 
 def _lying_over(near: Candidates, column: np.ndarray,
                 row_of: np.ndarray) -> tuple[Iterable[tuple[np.ndarray, np.ndarray]], int]:
-    """Pairs of a camera and one of the triangles `column` (k,) that may lie over it in the picture, whether it is seen
-    in the camera or not; those that reach behind the eye where they are `near`, in the `row_of` (p,) these; and of how
-    many cameras only these, since there are too many of the others."""
+    """Find pairs of a camera and a triangle that may overlap in the picture.
+
+    Pairs that reach behind the eye are taken from the candidates `near` (p) instead.
+
+    Parameters
+    ----------
+    column : (k,) int64, the triangles, as columns of the frames
+    row_of : (p,) int64, index in `column` of the triangle of each candidate
+
+    Returns
+    -------
+    pairs : iterable of cameras and indices in `column`
+    left : int, number of cameras for which only pairs that reach behind the eye are given, as there are too many others
+    """
     cameras, frames, view = near.cameras, near.frames, near.cameras.view
     mesh = TriangleMesh(frames.positions[frames.vertices[:, column]].reshape(-1, 3),
                         np.arange(3 * len(column)).reshape(3, -1).T)
@@ -115,7 +133,7 @@ def _lying_over(near: Candidates, column: np.ndarray,
 
 
 def _near(candidates: Candidates, room: np.ndarray) -> Candidates:
-    """Those of triangles that come as near as `room` (n,) to the camera that they are seen in."""
+    """Return the candidates whose triangle comes as near as `room` (n,), in scene units, to its camera."""
     cameras, frames = candidates.cameras, candidates.frames
     some = room[candidates.camera] * norm(frames.normal)[candidates.column]
     near = np.flatnonzero((smallest(candidates.ahead) < some) & (largest(candidates.ahead) > -some))

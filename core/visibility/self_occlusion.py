@@ -1,4 +1,4 @@
-"""Self-occlusion: what nearer parts of the mirror hide of a camera is cut off exactly.
+"""Self-occlusion: the parts of cameras that nearer parts of the mirror hide are cut off exactly.
 
 Hidden parts would cost work and, where the hiding part lies closer before them than reflections slide towards the eye,
 come out in front of it.
@@ -16,15 +16,21 @@ from .hidden_parts import DEEPER, MOST_HIDING, HiddenParts
 from .mirror_visibility import DepthGrid
 from .picture_pairs import pairs_in_picture
 
-MOST_PIECES = 1 << 18  # as many as cameras are cut into altogether
-EDGE = 1e-3  # of what doubled faces may lie apart: as much lies in both planes where a shade meets the mirror in a line
+MOST_PIECES = 1 << 18  # pieces of all cut cameras together
+EDGE = 1e-3  # factor on `DEEPER` in lamps' views, where an occluder meets the mirror at an angle
 LEVEL = 0.01  # sine of the angle between planes below which faces may be doubled
 MOST_WORK = 1 << 23  # lines of cameras, each once for every triangle that hides a part of its camera
 
 
 def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) -> tuple[Cameras, int, int]:
-    """Cameras without the parts that other triangles of the mirror hide; how many were cut, and how many were not, or
-    not along all outlines, since too much of the mirror lies over them."""
+    """Cut off the parts of cameras that other triangles of the mirror hide.
+
+    Returns
+    -------
+    cameras : Cameras
+    cut : int, number of cameras that were cut
+    left : int, number of cameras with too many occluders that were not cut, or not along all outlines
+    """
     view = cameras.view
     mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))
     frames = SceneFrames.of(mirror, np.arange(len(owner)))
@@ -46,7 +52,7 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
     kept = shown & ~uncut
     hidden = HiddenParts.joined([one.select(kept[one.camera]) for one in parts])
     lines = hidden.outlines(view, frames)
-    # each piece that the lines leave is asked of each triangle that hides a part of its camera
+    # estimate the work: each piece between the lines is tested against each triangle that hides a part of its camera
     load = np.bincount(lines.camera, minlength=len(cameras)) * count
     uncut |= crowded(load, worth, MOST_WORK)
     hidden, lines = hidden.select(~uncut[hidden.camera]), lines.select(~uncut[lines.camera])
@@ -55,8 +61,11 @@ def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) ->
 
 
 def _rounding(cameras: Cameras, frames: SceneFrames, camera: np.ndarray, column: np.ndarray) -> np.ndarray | float:
-    """How much of what doubled faces may lie apart pairs (p,) leave: a lamp may stand so near what touches the mirror
-    that much of its light would get through there."""
+    """Return the factor (p,) on `DEEPER` for pairs of a `camera` (p,) and a triangle `column` (p,).
+
+    It is `EDGE` for a lamp and a triangle at an angle to the mirror: the lamp may be so near to an object that touches
+    the mirror that much of its light would leak through the gap.
+    """
     if not isinstance(cameras.view, LampView):
         return 1.0
     surface, face = cameras.mirror_map.last(cameras.face[camera])

@@ -8,16 +8,18 @@ from ..geometry import norm
 from ..polygons import clip
 from ..support import portions
 
-BEHIND = 0.02  # of a triangle's size
+BEHIND = 0.02  # share of a triangle's size: hits as near to a ray that starts behind the triangle do not count
 PROBED_AT_ONCE = 16384  # pairs of a camera and a triangle of a mirror
 
 _PROBES = np.array([(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]).T / 4.0
 
 
 def plainly_seen(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
-    """Which candidates (p,), all triangles of mirrors, do not only touch the camera's own triangle in a corner or a
-    side; those neighbours count, as across a groove, that one of the camera's `_PROBES` sees, or the ray in the middle
-    of what the neighbour covers."""
+    """Return True for candidates (p,), all of them mirror triangles, that the camera sees more of than a shared edge.
+
+    A neighbour that shares a corner or a side with the camera's own triangle counts only if one of the camera's
+    `_PROBES` meets it, or the ray in the centre of the region that it covers. That is so across a groove.
+    """
     kept = np.ones(len(candidates), dtype=bool)
     for portion in portions(len(candidates), PROBED_AT_ONCE):
         part = portion.start + _touching(met, candidates.select(portion))
@@ -31,7 +33,7 @@ def plainly_seen(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
 
 
 def _touching(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
-    """Which candidates, all triangles of mirrors, share a corner or a side with the camera's own triangle."""
+    """Return indices (k,) of candidates, all of them mirror triangles, that share a corner with the camera's own."""
     cameras, frames = candidates.cameras, candidates.frames
     surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
     own = surface.corners(face)
@@ -41,8 +43,10 @@ def _touching(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
 
 
 def _probed(met: SceneAndMirrors, candidates: Candidates, probes: np.ndarray) -> np.ndarray:
-    """Which candidates (p,), all of them triangles of mirrors, one of the rays with weights `probes` (3, k, p) in
-    their cameras meets."""
+    """Return True for candidates (p,), all of them mirror triangles, that one of k rays of their cameras meets.
+
+    `probes` (3, k, p) are the rays' weights in the cameras.
+    """
     cameras, frames = candidates.cameras, candidates.frames
     corners, count = cameras.corners[candidates.camera].T, probes.shape[1]
     origins, rays = (np.einsum("xkn,kpn->xpn", np.take(values, corners, axis=1), probes).reshape(3, -1)
@@ -61,7 +65,7 @@ def _probed(met: SceneAndMirrors, candidates: Candidates, probes: np.ndarray) ->
 
 
 def _side(candidates: Candidates) -> np.ndarray:
-    """On which side (p,) of the planes of the candidates the cameras' own triangles lie, 1 or -1; 0 on both."""
+    """Return the side (p,) of the candidates' planes on which the cameras' own triangles lie: 1 or -1, 0 for both."""
     cameras, frames = candidates.cameras, candidates.frames
     surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
     corners = np.moveaxis(surface.corners(face), 1, 0)

@@ -1,7 +1,7 @@
-"""Where the scene cuts through a patch, or stands on it: there it hides the mirror from quite near.
+"""Contacts of the scene with a patch of the mirror: the scene cuts through the patch or stands on it.
 
-Faces that slide towards the eye would come out before what hides them so closely; cameras are cut there
-(`visibility.scene_contacts`), and have to show what a whole face would.
+Near a contact the scene hides the mirror so closely that faces, which slide towards the eye, would come out in front of
+it. Cameras are cut there (`visibility.scene_contacts`) and show the triangles in place of unclipped faces.
 """
 from __future__ import annotations
 
@@ -18,8 +18,13 @@ LARGE = 256.0  # pixels: larger triangles of the mirror are cut too often to be 
 
 
 def contacts(patch: Patch, met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (n,) of the scene that must not be covered and come as near to the patch as faces slide; and
-    which of the patch's triangles (k,) that they meet are large."""
+    """Find the contacts of a patch of k triangles with the scene.
+
+    Returns
+    -------
+    near : (n,) int64, scene triangles that must not be covered and are as near to the patch as faces slide
+    large : (k,) bool, True for large triangles of the patch that they meet
+    """
     tree, corners = met.scene, patch.mirror_map.surface.corners(patch.face)
     middle = corners.mean(axis=1)
     slid = met.slide * (GAP + DEPTH) * patch.far(corners - patch.eye[:, None])

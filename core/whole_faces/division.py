@@ -1,8 +1,8 @@
-"""Division: pieces are split until they are whole faces, straight enough, or too small to bother.
+"""Division: pieces are split until they can be drawn unclipped, are straight enough, or too small.
 
-Edges of the scene have bent images: those whose middle strays from the chord get a node there. Triangles over the
-border of the patch are diced, so that what is left for cameras is small. What is decided of an edge holds for both its
-sides.
+Edges of the scene have curved images: an edge whose middle deviates from the chord gets a node there. Triangles over
+the border of the patch are split into small pieces, so that little is left to cameras. A decision about an edge holds
+for the faces on both its sides.
 """
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from .sinking import Sinking, sides
 LEVELS = 10
 DICED = 48.0  # pixels: longer edges of triangles over the border are split
 DEEP = 6.0  # pixels: shorter edges that sink too deep are left to cameras
-SHORTEST = 0.25  # pixels: an edge that is not longer cannot stray by what anybody sees
+SHORTEST = 0.25  # pixels: the deviation of edges up to this length is invisible
 
 
 @dataclass(frozen=True)
 class Division:
-    """How pieces are split.
+    """Adaptive division of pieces until their edges follow their true images.
 
     Attributes
     ----------
     patch : Patch
-    tolerance : float, pixels that edges inside a surface may stray
+    tolerance : float, largest deviation of edges inside a surface, in pixels
     sinking : Sinking
-    virtual : bool, faces are drawn at the virtual image's depth
-    most : int, pieces that there may be
+    virtual : bool, True if faces are drawn at the virtual image's depth
+    most : int, largest number of pieces
     """
 
     patch: Patch
@@ -43,19 +43,26 @@ class Division:
     most: int
 
     def depths(self, images: Images, node: np.ndarray) -> np.ndarray:
-        """How deep nodes (n,) lie before the eye's plane: edges are straight in space, not evenly so in the picture."""
+        """Return the depths of nodes `node` (n,) before the eye's plane, to interpolate along edges in perspective."""
         if self.patch.mirror_map.orthographic:
             return np.ones(len(node))
         place = images.place[:, node] * ((1.0 + images.distance[node]) if self.virtual else 1.0)
         return np.maximum(self.patch.view.depths((place + self.patch.eye).T), 1e-300)
 
     def divided(self, images: Images, pieces: Pieces) -> tuple[Images, Pieces, np.ndarray, int]:
-        """Images of more nodes, the pieces; by how many pixels, and over how many, (2, e), their edges stray; and how
-        many edges were not split since there would be too many pieces."""
+        """Split pieces until their edges deviate by less than the tolerance.
+
+        Returns
+        -------
+        images : Images, the given ones, then those of new nodes
+        pieces : Pieces
+        straying : (2, e) float64, deviation and length of the edges that were examined and not split, in pixels
+        limited : int, number of edges that were not split because there would be too many pieces
+        """
         finished, left, limited = [], [np.zeros((2, 0))], 0
         for _ in range(LEVELS):
             breathe()
-            # short edges and such as leave the patch beside whole faces are what they are
+            # keep pieces none of whose edges may have to be split
             asked = self._asked(images, pieces)
             breathe()
             some = asked[0] | asked[1] | asked[2]
@@ -95,8 +102,10 @@ class Division:
         return images, Pieces.joined(finished), np.concatenate(left, axis=1), limited
 
     def strays_inside(self, images: Images, nodes: np.ndarray) -> np.ndarray:
-        """Which faces (3, f) stray in their middles by more than the tolerance: those over several triangles of the
-        mirror, where the map has kinks, of which their edges tell little."""
+        """Return True for faces with corners `nodes` (3, f) whose centre deviates by more than the tolerance.
+
+        Only faces over several mirror triangles are tested: the map has kinks there that their edges may not show.
+        """
         chosen = np.flatnonzero(images.several(nodes))
         corners = nodes[:, chosen]
         images = images.moved(self.patch, *corners)
@@ -114,18 +123,29 @@ class Division:
         return found
 
     def _seems(self, images: Images, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
-        """By how many pixels edges (e,) from a to b seem to stray from their chords; the chords, how far the image at a
-        moves, (2, e) each, and which share of the chord lies before its middle."""
+        """Estimate the deviation of the images of edges from their chords, by the derivatives of the map at their ends.
+
+        Parameters
+        ----------
+        a, b : (e,) int64, nodes at the ends of the edges
+
+        Returns
+        -------
+        straying : (e,) float64, pixels
+        chord : (2, e) float64, pixels from a to b
+        moved : (2, e) float64, derivative at a of the image along the edge, in pixels
+        share : (e,) float64, of the chord, from a to the image of the edge's middle
+        """
         along = images.point[:, b] - images.point[:, a]
         chord = images.pixel[:, b] - images.pixel[:, a]
         moved, back = ((images.moving[:, :, end] * along).sum(axis=1) for end in (a, b))
         near, far = (self.depths(images, end) for end in (a, b))
-        # a cubic through both ends strays from its chord by a quarter of what it turns away from it at an end
+        # a cubic's deviation from its chord is a quarter of the difference between chord and derivative at an end
         straying = 0.25 * np.maximum(np.hypot(*(moved - far / near * chord)), np.hypot(*(back - near / far * chord)))
         return straying, chord, moved, far / (near + far)
 
     def _asked(self, images: Images, pieces: Pieces) -> np.ndarray:
-        """Edges (3, f) that may have to be split."""
+        """Return True for edges (3, f) of the pieces that may have to be split."""
         found, spots = images.found[pieces.nodes], images.pixel[:, pieces.nodes]
         some, asked = found[0] | found[1] | found[2], np.empty(found.shape, dtype=bool)
         for k in range(3):
@@ -138,8 +158,21 @@ class Division:
 
     def _judged(self, images: Images, a: np.ndarray, b: np.ndarray, over: np.ndarray,
                 outline: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, Images]:
-        """Which edges (e,) from a to b are to be split; whose middles have no image; what those stray by that stay,
-        over which lengths; images of the middles of those that are split."""
+        """Decide which edges to split.
+
+        Parameters
+        ----------
+        a, b : (e,) int64, nodes at the ends of the edges
+        over : (e,) bool, True for edges of pieces that are not whole on the patch
+        outline : (e,) bool, True for outlines
+
+        Returns
+        -------
+        marked : (e,) bool, True for edges to split
+        lost : (e,) bool, True for edges whose middle has no image
+        strayed : (2, k) float64, deviation and length, in pixels, of the edges that stay
+        middles : Images, of the middles of the edges to split
+        """
         tolerance = np.where(outline, WHOLE_OUTLINE_SHARE, 1.0) * self.tolerance
         a, b = np.where(images.found[a], (a, b), (b, a))
         both = images.found[b]
@@ -163,8 +196,10 @@ class Division:
 
 
 def _outlines(images: Images, pieces: Pieces, face: np.ndarray, edge: np.ndarray, count: int) -> np.ndarray:
-    """Which of so many edges are outlines, given the face and the edge of each side (k,) of a piece: those at which the
-    surface ends, or turns over in the picture."""
+    """Return True for edges (count,) that are outlines: the surface ends there, or folds over in the picture.
+
+    `face` (k,) and `edge` (k,) are the piece and the edge of each side of a piece.
+    """
     found = images.found[pieces.nodes]
     turn = np.where(found[0] & found[1] & found[2], np.sign(doubled_areas(images.pixel[:, pieces.nodes].T)), 0.0)[face]
     return (np.bincount(edge, minlength=count) != 2) | (np.abs(np.bincount(edge, turn, minlength=count)) != 2.0)

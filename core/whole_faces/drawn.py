@@ -1,4 +1,4 @@
-"""What of the pieces is drawn, what is left to cameras, and what nobody sees."""
+"""Classification of the pieces: drawn unclipped, left to cameras, or invisible."""
 from __future__ import annotations
 
 import numpy as np
@@ -16,7 +16,14 @@ ROOM = 2.0  # pixels round a piece
 
 
 def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) -> tuple[Pieces, Pieces]:
-    """The pieces without those that turn away and are too small to be bent; and these, which lie behind others."""
+    """Separate small pieces that are seen from behind from all others.
+
+    `outward` (m,) is 1 for source triangles that are visible from the front only, 0 for others; None if there are none.
+
+    Returns
+    -------
+    shown, behind : Pieces, all others, and the small ones that face away and lie behind others
+    """
     if outward is None:
         return pieces, pieces.select(slice(0, 0))
     away = np.flatnonzero(turned_away(images, pieces, outward[pieces.source]))
@@ -28,9 +35,18 @@ def shown_or_behind(images: Images, pieces: Pieces, outward: np.ndarray | None) 
 
 def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: Pieces,
                    near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return two masks of the pieces (f,): those that are drawn, of the `shown` (n,) ones, which are whole, and those
-    that are left to cameras. `behind` them lie others, and before them triangles of the scene with corners `near`
-    (3, 3, t)."""
+    """Decide which pieces (f) are drawn unclipped, and which are left to cameras.
+
+    Parameters
+    ----------
+    shown : (n,) int64, pieces that are whole on the patch
+    behind : Pieces, which lie behind these
+    near : (3, 3, t) float64, corners of scene triangles that may hide the patch closely
+
+    Returns
+    -------
+    drawn, left : (f,) bool
+    """
     patch, images = layers.sinking.patch, layers.images
     found = images.found[pieces.nodes]
     found = np.flatnonzero(found[0] & found[1] & found[2])
@@ -50,6 +66,6 @@ def drawn_or_left(layers: Layers, pieces: Pieces, shown: np.ndarray, behind: Pie
 
 
 def _beyond(patch: Patch, images: Images, nodes: np.ndarray) -> np.ndarray:
-    """Which pieces (3, f), all with three images, lie outside of the picture."""
+    """Return True for pieces with corners `nodes` (3, f), all of which have images, that lie outside the picture."""
     low, high = box(images.pixel[:, nodes])
     return ((high < -ROOM) | (low > np.array(patch.view.resolution)[:, None] + ROOM)).any(axis=0)

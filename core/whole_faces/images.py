@@ -9,7 +9,7 @@ from ..geometry import ColumnArrays, mask
 from ..patches import Patch, changes, find
 from ..support import portions
 
-AT_ONCE = 16384  # points: what their arrays take fits the cache
+AT_ONCE = 16384  # points whose arrays fit the cache
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Images(ColumnArrays):
     member : (n,) int64, the triangle of the patch
     uv : (2, n) float64
     distance : (n,) float64, s
-    found : (n,) bool, whether there is an image; nothing that follows means anything where there is none
+    found : (n,) bool, True if there is an image; otherwise the following entries are meaningless
     place : (3, n) float64, from the eye
     pixel : (2, n) float64
     moving : (2, 3, n) float64, pixels by which the image moves where its point moves, of those asked for by `moved`
@@ -39,13 +39,13 @@ class Images(ColumnArrays):
 
     @classmethod
     def near(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray) -> Images:
-        """Images of points (3, n) from the eye, looked for from starts."""
+        """Find images of `points` (3, n), relative to the eye, from first guesses `member`, `uv` and `s`."""
         return cls.at(patch, points, *find(patch, member, uv, s, points))
 
     @classmethod
     def at(cls, patch: Patch, points: np.ndarray, member: np.ndarray, uv: np.ndarray, s: np.ndarray,
            found: np.ndarray) -> Images:
-        """Images of points (3, n) from the eye, which are known but for where they lie in the picture."""
+        """Make images of `points` (3, n), relative to the eye, with known places `uv` in triangles `member`."""
         count = len(s)
         place, pixel = np.empty((3, count)), np.empty((2, count))
         for part in portions(count, AT_ONCE):
@@ -55,24 +55,24 @@ class Images(ColumnArrays):
         return cls(points, member, uv, s, found, place, pixel, np.full((2, 3, count), np.nan))
 
     def put(self, node: np.ndarray, others: Images) -> None:
-        """Put the images of `others` (k) in the place of those of nodes (k,)."""
+        """Replace the images of nodes `node` (k,) by those of `others` (k), in place."""
         for field in fields(self):
             getattr(self, field.name)[..., node] = getattr(others, field.name)
 
     def several(self, nodes: np.ndarray) -> np.ndarray:
-        """Which faces (3, f) lie over several triangles of the mirror."""
+        """Return True for faces with corners `nodes` (3, f) that lie over several triangles of the mirror."""
         one, other, third = self.member[nodes]
         return (one != other) | (other != third)
 
     def moved(self, patch: Patch, *nodes: np.ndarray) -> Images:
-        """The same images; how those of all these nodes move is worked out and kept, once for each."""
+        """Compute the derivatives `moving` of the images of `nodes` that lack them, in place, and return the images."""
         asked = np.logical_or.reduce([mask(len(self), some) for some in nodes])
         chosen = np.flatnonzero(asked & self.found & np.isnan(self.moving[0, 0]))
         _, self.moving[:, :, chosen] = changes(patch, self.member[chosen], self.uv[:, chosen], self.distance[chosen])
         return self
 
     def between(self, patch: Patch, a: np.ndarray, b: np.ndarray) -> Images:
-        """Images of the middles between points a and b (e,), looked for between their images."""
+        """Find the images of the midpoints between points `a` and `b` (e,), starting midway between their images."""
         member = self.member[a]
         start = patch.coordinates(member, 0.5 * (self.place[:, a] + self.place[:, b]))
         lone = ~self.found[b]
@@ -81,7 +81,7 @@ class Images(ColumnArrays):
         return Images.near(patch, 0.5 * (self.point[:, a] + self.point[:, b]), member, start, s)
 
     def around(self, patch: Patch, nodes: np.ndarray) -> Images:
-        """Images of the middles of faces (3, f)."""
+        """Find the images of the centres of faces with corners `nodes` (3, f), starting at their images' centres."""
         member = self.member[nodes[0]]
         start = np.clip(patch.coordinates(member, self.place[:, nodes].mean(axis=1)), -1.0, 2.0)
         return Images.near(patch, self.point[:, nodes].mean(axis=1), member, start, self.distance[nodes].mean(axis=0))

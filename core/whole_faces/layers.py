@@ -1,4 +1,4 @@
-"""What lies over what: which whole faces nearer ones hide, and which are seen in order."""
+"""Depth order of unclipped faces: faces that nearer ones hide, and faces too close to be drawn in order."""
 from __future__ import annotations
 
 from collections.abc import Generator
@@ -15,7 +15,7 @@ from .images import Images
 from .picture_samples import Grid, least_around
 from .sinking import Sinking
 
-APART = 1e-6  # of the nearness: what lies closer before a face does not hide it
+APART = 1e-6  # share of the nearness: a surface that is nearer by less does not hide a face
 
 
 @dataclass(frozen=True)
@@ -50,15 +50,24 @@ class Layers:
         return hidden, close
 
     def _close(self, nodes, stops, samples, pixels: int) -> Generator[np.ndarray, None, None]:
-        """Faces that lie before others by less than they sink, given the faces, pixels and nearness at samples: the
-        nearest first, and then those that are seen through faces of which none `stops` (f,) light."""
+        """Yield faces whose sag exceeds the gap to the next face behind them, layer by layer from the nearest.
+
+        Deeper layers are examined where no nearer face stops light.
+
+        Parameters
+        ----------
+        nodes : (3, f) int64, corners of the faces
+        stops : (f,) bool, True for faces that stop light
+        samples : tuple of face (k,), pixel (k,) and nearness (k,) at each sample
+        pixels : int, number of pixels of the grid
+        """
         face, pixel, near = samples
         while len(face):
             first, second = np.full(pixels, -1.0), np.full(pixels, -1.0)
             np.maximum.at(first, pixel, near)
             ahead = near >= first[pixel]
             np.maximum.at(second, pixel[~ahead], near[~ahead])
-            # what lies behind may sink
+            # only the sag of the nearer faces counts: faces behind may sag
             over = ahead & (second[pixel] >= 0.0)
             above, column = distinct(face[over])
             sagitta = INSIDE * self.sinking.deepest(self.images, nodes[:, above])
@@ -68,7 +77,14 @@ class Layers:
             face, pixel, near = face[~ahead], pixel[~ahead], near[~ahead]
 
     def _behind_contacts(self, nodes, face, pixel, grid: Grid, near: np.ndarray) -> np.ndarray:
-        """Faces that the scene hides from the eye from so near that they would slide through it."""
+        """Return faces that the scene hides from the eye so closely that they would slide through it.
+
+        Parameters
+        ----------
+        nodes : (3, f) int64, corners of the faces
+        face, pixel : (k,) int64, of the samples on `grid`
+        near : (3, 3, t) float64, corners of the scene's triangles, as [component, corner, triangle]
+        """
         patch = self.sinking.patch
         depth = patch.view.depths(near.reshape(3, -1).T).reshape(near.shape[1:])
         ahead = (depth > 0.0).all(axis=0)
@@ -98,7 +114,7 @@ def _hidden(solid: np.ndarray, covered: Covered, corners: np.ndarray, order: np.
     front, own = np.full(size[0] * size[1], -1.0), solid[covered.face]
     np.maximum.at(front, covered.pixel[own], covered.order[own])
     shown = mask(len(solid), covered.face[covered.order >= front[covered.pixel]])
-    # what is seen in no pixel's middle may be seen beside it
+    # a face that is hidden at all pixel centres may still be seen between them
     doubtful = np.flatnonzero(~shown)
     touched = Covered.of(corners[:, :, doubtful], order[:, doubtful], size, True)
     around = least_around(front.reshape(size[::-1])).ravel()

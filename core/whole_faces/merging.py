@@ -1,11 +1,11 @@
-"""Vertices of which the picture cannot show more than one: the nearest to the middle of their node stands for all.
+"""Vertex clustering: if the picture cannot resolve a node's vertices, the nearest to its centre represents them all.
 
-The tree of the vertices is descended by the images of its nodes' middles, as for points, so that the work is bounded by
-what the picture shows and not by the scene. A triangle goes on between those that stand for its corners, or is gone
-where these are two (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993):
-vertices are moved together, never apart, so that no crack opens. What an outline runs through is drawn together in
-smaller parts, what would be lost, as wires and leaves, not at all, and nothing with what it does not hang together
-with, as cloth with skin.
+The tree of vertices is descended by the images of its nodes' centres, as for points, so that the work is bounded by the
+picture and not by the scene. A triangle is drawn between the representatives of its corners; it is dropped if two of
+these are the same (J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993).
+Vertices only move together, so that no cracks open. Nodes with an outline in them are merged in smaller parts. Nodes
+that would lose their surface, such as wires and leaves, are not merged, nor are disconnected parts, such as cloth and
+skin.
 """
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from ..support import TOGETHER_AT_OUTLINES, breathe, portions
 from ..trees import SceneTree
 from .images import Images
 
-AT_ONCE = 16384  # triangles: what their arrays take fits the cache
-LEFT = 0.6  # of a surface's area: where less is left something is lost, and not only smoothed
+AT_ONCE = 16384  # triangles whose arrays fit the cache
+LEFT = 0.6  # share of a surface's area: if less remains, merging has lost details and not only smoothed them
 
 
 @dataclass(frozen=True)
 class Merged:
-    """A scene of which small parts have been drawn together.
+    """A scene in which vertices of small parts have been merged into representative vertices.
 
     Attributes
     ----------
-    images : Images, of the scene's vertices; those that others stand for have none
-    triangles : (m, 3) int64, the scene's triangles between the vertices that stand for their corners
-    left : (k,) int64, rising, those that have an area still, one of several in the same place
+    images : Images, of the scene's vertices; vertices that others represent have none
+    triangles : (m, 3) int64, the scene's triangles, with the representatives of their corners
+    left : (k,) int64, increasing, triangles that still have an area, one of several in the same place
     """
 
     images: Images
@@ -41,9 +41,10 @@ class Merged:
 
     @classmethod
     def of(cls, patch: Patch, tree: SceneTree, least: float, clear: np.ndarray) -> Merged:
-        """The scene with nodes of its vertices drawn together whose images on the patch are smaller than `least`
-        pixels; as it is where that is none, and where triangles are `clear` (m,): of what is seen through, both sides
-        count."""
+        """Merge the vertices of tree nodes whose images on the patch are smaller than `least` pixels.
+
+        Vertices of triangles that are `clear` (m,), which let light through, are not merged: both their sides are seen.
+        """
         mesh = tree.mesh
         points = rows(mesh.positions) - patch.eye
         descent = Descent(Walk(patch), tree.vertices, least, tree.bodies.part)
@@ -71,7 +72,7 @@ class Merged:
 
 
 def _images(patch: Patch, descent: Descent, points: np.ndarray) -> Images:
-    """Images of the points (3, v) that stand for themselves, looked for from those of their nodes."""
+    """Compute the images of the `points` (3, v) that represent themselves, starting from those of their nodes."""
     count = points.shape[1]
     member, uv, s = np.zeros(count, dtype=np.int64), np.zeros((2, count)), np.zeros(count)
     found, asked = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
@@ -88,22 +89,25 @@ def _images(patch: Patch, descent: Descent, points: np.ndarray) -> Images:
 
 
 def _in_one_place(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
-    """What stands for each vertex (v,), the same for those in one place, where anything stands for another."""
+    """Return the representative (v,) of each vertex, the same for vertices in one place if any were merged."""
     if (standing == np.arange(len(standing))).all():
         return standing
     return standing[mesh.places]
 
 
 def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.ndarray:
-    """Which vertices (v,) stand for some at which the surface ends, or for triangles of which some are seen from the
-    front and some from behind."""
+    """Return True for vertices (v,) that represent a part of the scene with an outline in it.
+
+    These represent vertices at which the surface ends, or triangles of which some are seen from the front and some from
+    behind. `standing` (v,) is the representative of each vertex.
+    """
     mesh = tree.mesh
     found, back = np.zeros((2, len(standing)), dtype=bool)
     for corner, node in _moved(mesh, standing):
         a, b, c = (mesh.positions.take(of_all, axis=0).T for of_all in corner)
         normal = cross(b - a, c - a)
         for stands in node:
-            # what one vertex stands for is seen from one place
+            # the triangles that one vertex represents are all seen from the place of its image
             height = dot(normal, columns(images.point, stands) - columns(images.place, stands))
             found[stands[height < 0.0]] = True
             back[stands[height > 0.0]] = True
@@ -113,7 +117,10 @@ def _on_outline(tree: SceneTree, images: Images, standing: np.ndarray) -> np.nda
 
 
 def _lost(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
-    """Which vertices (v,) stand for so much that too little of the surface is left."""
+    """Return True for vertices (v,) whose triangles keep less than `LEFT` of their area when merged.
+
+    `standing` (v,) is the representative of each vertex.
+    """
     before, after = np.zeros((2, len(standing)))
     for corner, node in _moved(mesh, standing):
         for total, ends in ((before, corner), (after, node)):
@@ -125,7 +132,7 @@ def _lost(mesh: TriangleMesh, standing: np.ndarray) -> np.ndarray:
 
 
 def _moved(mesh: TriangleMesh, standing: np.ndarray) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
-    """The corners (3, n) of triangles of which a corner is drawn together with another, and what stands for each."""
+    """Yield corners (3, n) of triangles with a merged corner, and the representatives (3, n) of these corners."""
     for part in portions(len(mesh.triangles), AT_ONCE):
         corner = mesh.triangles[part].T
         node = columns(standing, corner)
@@ -134,11 +141,14 @@ def _moved(mesh: TriangleMesh, standing: np.ndarray) -> Generator[tuple[np.ndarr
 
 
 def _distinct(mesh: TriangleMesh, images: Images, triangles: np.ndarray) -> np.ndarray:
-    """Which triangles (n, 3) have an area; of several between the same vertices one, seen from the front if any is."""
+    """Return True for triangles (n, 3) that have an area; of several between the same vertices only for one.
+
+    That one is seen from the front if any of them is.
+    """
     a, b, c = triangles.T
     kept = np.flatnonzero((a != b) & (b != c) & (c != a))
     kept = kept[areal(rows(mesh.positions.take(triangles[kept].T, axis=0)))]
-    # a mirror turns what it shows over
+    # a mirror reverses the orientation of triangles
     front = doubled_areas(images.pixel[:, triangles[kept]].transpose(1, 2, 0)) < 0.0
     kept = np.concatenate((kept[front], kept[~front]))
     first, _ = groups(*np.sort(triangles[kept], axis=1).T)

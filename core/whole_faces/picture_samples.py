@@ -1,4 +1,4 @@
-"""Samples of what the picture shows of a patch."""
+"""Grid of samples over the part of the picture that shows a patch."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,7 +12,14 @@ MOST_SAMPLES = 1 << 23
 
 @dataclass(frozen=True)
 class Grid:
-    """Samples of what the picture shows of the patch: pixels, unless these are too many."""
+    """Samples over the part of the picture that shows the patch: its pixels, or fewer samples if these are too many.
+
+    Attributes
+    ----------
+    low : (2,) float64, lower left corner, in pixels
+    scale : float, samples per pixel
+    size : (int, int), columns and rows of samples
+    """
 
     low: np.ndarray
     scale: float
@@ -28,12 +35,12 @@ class Grid:
         return cls(low, scale, (width, height))
 
     def spots(self, pixels: np.ndarray) -> np.ndarray:
-        """Spots (2, f, 3) of the picture on the grid."""
+        """Convert `pixels` (2, f, 3) to samples of the grid."""
         return (pixels - self.low[:, None, None]) * self.scale
 
 
 def least_around(front: np.ndarray) -> np.ndarray:
-    """The least value of each pixel (height, width) and the eight round it; of those outside, the nearest inside."""
+    """Return the minimum (height, width) of each pixel of `front` and its eight neighbours, with edges repeated."""
     front = np.pad(front, 1, mode="edge")
     rows_least = np.minimum(np.minimum(front[:-2], front[1:-1]), front[2:])
     return np.minimum(np.minimum(rows_least[:, :-2], rows_least[:, 1:-1]), rows_least[:, 2:])

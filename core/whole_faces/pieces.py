@@ -1,6 +1,6 @@
-"""Pieces of the diffuse triangles, and which of them are whole faces.
+"""Pieces of the diffuse triangles, and the test whether a piece can be drawn unclipped.
 
-A triangle with three images that lies on the patch away from its border is a whole face.
+A piece can be, if its three corners have images and it lies on the patch away from the patch's border.
 """
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from ..support import portions
 from ..views import box
 from .images import Images
 
-AT_ONCE = 16384  # pieces: what their arrays take fits the cache
+AT_ONCE = 16384  # pieces whose arrays fit the cache
 NEAR = 0.5  # pixels from the box of a face: where its bent edges may lie
 
 
@@ -40,7 +40,7 @@ class Pieces(ColumnArrays):
     nodes : (3, f) int64
     source : (f,) int64, the triangle that each is a piece of
     lost : (3, f) bool, edges 01, 12, 20 whose middle has no image on the patch
-    done : (3, f) bool, edges of which nothing more is to be decided
+    done : (3, f) bool, edges that are not to be examined again
     """
 
     nodes: np.ndarray
@@ -50,7 +50,7 @@ class Pieces(ColumnArrays):
 
     @classmethod
     def of(cls, triangles: np.ndarray, source: np.ndarray) -> Pieces:
-        """The triangles (f, 3), whole."""
+        """Make one piece of each triangle (f, 3)."""
         nodes = rows(triangles)
         return cls(nodes, source, np.zeros(nodes.shape, dtype=bool), np.zeros(nodes.shape, dtype=bool))
 
@@ -65,8 +65,10 @@ class Pieces(ColumnArrays):
 
 
 def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarray:
-    """Which pieces (f,) turn their backs to all places on the patch where they are seen; `outward` (f,) is 1 for those
-    that show the side of their normals alone, 0 for others."""
+    """Return True for pieces (f,) that are seen from behind everywhere on the patch.
+
+    `outward` (f,) is 1 for pieces that are visible from the front only, 0 for others, which are never turned away.
+    """
     found = np.zeros(len(pieces), dtype=bool)
     asked = np.flatnonzero(outward != 0.0)
     for part in portions(len(asked), AT_ONCE):
@@ -75,7 +77,7 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
         a, b, c = (columns(images.point, node) for node in nodes)
         places = [columns(images.place, node) for node in nodes]
         normal = cross(b - a, c - a)
-        # between three places the mirror bulges by less than they are apart
+        # the mirror between three places bulges by less than their largest distance
         bulge = largest(np.stack([norm(places[k] - places[next_corner(k)]) for k in range(3)]))
         away = np.ones(len(some), dtype=bool)
         for node, place in zip(nodes, places):
@@ -85,7 +87,7 @@ def turned_away(images: Images, pieces: Pieces, outward: np.ndarray) -> np.ndarr
 
 
 def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
-    """Which pieces (f,) are seen whole on the patch."""
+    """Return True for pieces (f,) whose whole image lies on the patch."""
     every = np.empty(len(pieces), dtype=bool)
     for part in portions(len(every), AT_ONCE):
         found, lost = columns(images.found, pieces.nodes[:, part]), pieces.lost[:, part]
@@ -93,7 +95,7 @@ def whole(patch: Patch, images: Images, pieces: Pieces) -> np.ndarray:
         chosen = np.flatnonzero(all_found)
         spots = columns(images.pixel, pieces.nodes[:, part.start + chosen])
         low, high = box(spots)
-        # with a corner on the patch, what touches no border lies on it whole
+        # a piece with a corner on the patch that touches no border lies entirely on it
         all_found[chosen] = (patch.border.holds(low - NEAR, high + NEAR) & (doubled_areas(spots.T) != 0.0)
                              & ~patch.border.touched(low - NEAR, high + NEAR))
         every[part] = all_found

@@ -15,22 +15,22 @@ from ..polygons import Faces, Nodes
 from .images import Images
 from .whole import WholeFaces
 
-ON_EDGE = 1e-6  # of a triangle: a node so near its edge lies on it, and one so near an end is the end
+ON_EDGE = 1e-6  # share of a triangle's size: a node as near to an edge lies on it, one as near to an end is the end
 SAME_IMAGE = 0.05  # pixels: ends that are farther apart are two images
 
 
 @dataclass(frozen=True)
 class Seamed:
-    """Whole faces (f) with the nodes of their neighbours.
+    """Unclipped faces (f) that share nodes with the adjacent faces of cameras.
 
     Attributes
     ----------
     place, point : (3, n) float64, of the faces' own nodes, in world space
-    same : (n,) int64, the node of the cameras' faces that each of them is, or -1
-    nodes : (f, 3) int64, own nodes, and numbered behind them the nodes of the cameras' faces
-    source : (f,) int64, the scene's triangle that each lies in
-    split : (f,) bool, whether it is a part of that triangle only
-    mirror_face : (f,) int64, the mirror's triangle that each lies on, -1 where these are several
+    same : (n,) int64, node of the cameras' faces that each own node coincides with, or -1
+    nodes : (f, 3) int64, own nodes, or n plus a node of the cameras' faces
+    source : (f,) int64, the scene's triangle that each face lies in
+    split : (f,) bool, True if the face is only a part of that triangle
+    mirror_face : (f,) int64, the mirror's triangle that each face lies on, -1 if there are several
     """
 
     place: np.ndarray
@@ -44,8 +44,13 @@ class Seamed:
 
 def seamed(whole: WholeFaces, cameras: Cameras, frames: SceneFrames, nodes: Nodes,
            faces: Faces) -> tuple[Seamed, Nodes]:
-    """The whole faces that are drawn beside the `faces` that cameras have cut; and the nodes of the latter with the
-    ends that both share in one place."""
+    """Connect the drawn unclipped faces to the `faces` of cameras along shared scene edges, without cracks.
+
+    Returns
+    -------
+    seamed : Seamed, the unclipped faces, with the cameras' nodes on their edges
+    nodes : Nodes, of the cameras' faces, moved to the unclipped faces' nodes where both have the same end
+    """
     images, drawn, left = whole.images, whole.pieces.select(whole.drawn), whole.pieces.select(whole.left)
     count = len(images)
     own = _edges(drawn.nodes.T, count)
@@ -76,14 +81,20 @@ def seamed(whole: WholeFaces, cameras: Cameras, frames: SceneFrames, nodes: Node
 
 
 def _edges(nodes: np.ndarray, count: int) -> np.ndarray:
-    """Numbers (f, 3) of the edges 01, 12, 20 of faces (f, 3), the same from both sides."""
+    """Number the edges 01, 12, 20 of faces with corners `nodes` (f, 3): (f, 3), the same number from both sides."""
     return edge_numbers(nodes, following(nodes), count)
 
 
 def _on_edges(frames: SceneFrames, nodes: Nodes, faces: Faces, seam: np.ndarray,
               count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The nodes of the cameras' faces that lie on edges of the `seam`: the edge, the node, and its share of the way
-    along it."""
+    """Find the nodes of the cameras' `faces` on edges of the `seam`, numbers of scene edges, sorted.
+
+    Returns
+    -------
+    key : (k,) int64, number of the edge
+    node : (k,) int64, into `nodes`
+    share : (k,) float64, position along the edge, from 0 at its lower end to 1
+    """
     face, side = np.nonzero(faces.on_scene_edge)
     ends = np.stack((faces.nodes[face, side], faces.nodes[face, next_corner(side)]))
     column, row = faces.column[face], np.arange(len(face))
@@ -106,8 +117,19 @@ def _on_edges(frames: SceneFrames, nodes: Nodes, faces: Faces, seam: np.ndarray,
 
 def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.ndarray, key: np.ndarray,
                 node: np.ndarray) -> tuple[Images, np.ndarray, np.ndarray]:
-    """The faces (f, 3), those with further nodes on edges as fans round their middles, whose images are new; the nodes
-    of all, and the face that each is a part of. Nodes come along each edge (k,) from its lower end to its higher."""
+    """Insert nodes into the edges of faces with corners `nodes` (f, 3): these faces become fans around their centres.
+
+    Parameters
+    ----------
+    own : (f, 3) int64, numbers of the faces' edges
+    key, node : (k,) int64, edge and node to insert, sorted by edge and along each edge from its lower end
+
+    Returns
+    -------
+    images : Images, the given ones, then those of the centres
+    corners : (g, 3) int64, of all faces
+    face : (g,) int64, the given face that each is a part of
+    """
     count = len(images)
     start, more = between(key, own, own)
     chosen = np.flatnonzero(more.any(axis=1))
@@ -130,7 +152,7 @@ def _with_nodes(whole: WholeFaces, images: Images, nodes: np.ndarray, own: np.nd
 
 
 def _middles(whole: WholeFaces, images: Images, nodes: np.ndarray) -> Images:
-    """Images of the middles of faces (f, 3)."""
+    """Find the images of the centres of faces with corners `nodes` (f, 3); interpolate images that are not found."""
     found = images.around(whole.patch, nodes.T)
     return replace(found, place=np.where(found.found, found.place, images.place[:, nodes].mean(axis=2)),
                    distance=np.where(found.found, found.distance, images.distance[nodes].mean(axis=1)))

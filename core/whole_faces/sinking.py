@@ -1,8 +1,8 @@
-"""How far whole faces sink into the mirror.
+"""Chord sag: the depth to which unclipped faces sink below the mirror between their corners.
 
-The corners of a whole face lie on the mirror, or slid from it towards the eye by a little, the nearer the path the
-more. Between them a face over several triangles of a convex mirror sinks, by the sagitta of the mirror. Where that is
-more than the room between two layers, or between the mirror and the layer, the picture would show the wrong one.
+The corners of such a face lie on the mirror, or a little before it towards the eye, the more the shorter the path.
+Between them a face over several triangles of a convex mirror sags below it, by the mirror's sagitta. If that exceeds
+the gap between two layers, or between the mirror and the layer, the picture would show the wrong one.
 """
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from ..patches import Patch
 from ..result import DEPTH, GAP
 from .images import Images
 
-SINKING = 0.5  # of the room before the mirror: what an edge may take of it; the inside of a face takes a third more
+SINKING = 0.5  # share of the gap before the mirror that an edge may sag by; the inside of a face sags a third more
 
 
 @dataclass(frozen=True)
 class Sinking:
-    """How far apart layers lie.
+    """Distances between layers, and the chord sag of faces in these terms.
 
     Attributes
     ----------
     patch : Patch
-    layered : bool, whether they are apart at all
-    size, reach : float, of an orthographic view: what is seen of the mirror, and the longest path
-    slide : float, share of what layers slide before other mirrors
+    layered : bool, False if layers do not slide apart
+    size, reach : float, for orthographic views: size of the visible mirror, and longest path, in scene units
+    slide : float, share of the usual distance that layers slide
     """
 
     patch: Patch
@@ -37,7 +37,7 @@ class Sinking:
     slide: float
 
     def order(self, images: Images, node: np.ndarray | slice = slice(None)) -> np.ndarray:
-        """How near nodes (n,) come to the eye, from 0 to 1."""
+        """Return the depth order of nodes `node` (n,), from 0 to 1 for the shortest path, nearest to the eye."""
         s = np.maximum(images.distance[node], 0.0)
         return 1.0 - np.minimum(s / self.reach, 1.0) if self.patch.mirror_map.orthographic else 1.0 / (1.0 + s)
 
@@ -58,16 +58,16 @@ class Sinking:
         return deepest / (self.slide * (self.size if patch.mirror_map.orthographic else 1.0))
 
     def deepest(self, images: Images, nodes: np.ndarray) -> np.ndarray:
-        """How far the edges of faces (3, f) sink at most."""
+        """Return the largest sag (f,) of the edges of faces with corners `nodes` (3, f), as in `sagitta`."""
         most = np.zeros(nodes.shape[1])
-        # a face on one triangle of the mirror does not sink
+        # a face on one triangle of the mirror does not sag
         some = np.flatnonzero(images.several(nodes))
         for edge in sides(nodes[:, some]):
             most[some] = np.maximum(most[some], self.sagitta(images, *edge))
         return most
 
     def sunk(self, images: Images, nodes: np.ndarray) -> np.ndarray:
-        """Which faces (3, f) sink nearly to the mirror."""
+        """Return True for faces with corners `nodes` (3, f) that have an edge which sags too deep."""
         some = np.flatnonzero(images.several(nodes))
         found = np.zeros(nodes.shape[1], dtype=bool)
         for edge in sides(nodes[:, some]):
@@ -75,7 +75,7 @@ class Sinking:
         return found
 
     def too_deep(self, images: Images, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Which edges (e,) from a to b sink nearly to the mirror."""
+        """Return True for edges from nodes `a` to `b` (e,) that sag by more than `SINKING` of their gap."""
         if not self.layered:
             return np.zeros(len(a), dtype=bool)
         order = np.minimum(self.order(images, a), self.order(images, b))
@@ -83,6 +83,6 @@ class Sinking:
 
 
 def sides(nodes: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
-    """The ends of the edges 01, 12 and 20 of faces (3, f)."""
+    """Return the end nodes, (f,) each, of the edges 01, 12 and 20 of faces with corners `nodes` (3, f)."""
     a, b, c = nodes
     return (a, b), (b, c), (c, a)

@@ -21,31 +21,31 @@ from .merging import Merged
 from .pieces import Pieces, turned_away, whole
 from .sinking import Sinking
 
-LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # of the scene, and of the mirror: fewer are cut sooner than looked at twice
-LEAST_SHARE = 0.25  # of what is seen of the mirror: a smaller patch is not worth it
+LEAST_TRIANGLES, LEAST_PATCH = 8000, 32  # triangles of the scene, and of a patch: clipping is faster for fewer
+LEAST_SHARE = 0.25  # share of the visible mirror: a smaller patch is not worth it
 FAR = 64.0  # pixels by which edges that leave the patch may be longer
 WAYS = ((0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2))  # from corner to corner of a triangle
 PROBES = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1 / 3, 1 / 3))
-WIDER = 1.25  # than the rays of a triangle at its corners, or at its probes: those between them
+WIDER = 1.25  # factor on the spread of a triangle's rays at its corners, or at its probes, to bound the rays between
 TURNING = 0.05  # sine of how far the rays at a triangle's corners turn, beyond which it is probed between them too
 
 
 @dataclass(frozen=True)
 class WholeFaces:
-    """What needs no cameras, and what is left for them.
+    """Pieces of scene triangles that are drawn unclipped, and pieces that are left to cameras.
 
     Attributes
     ----------
     positions : (n, 3) float64, of the scene's vertices
     patch : Patch
-    images : Images, of the scene's vertices, and behind them of nodes that its triangles were split at
-    merged : (m, 3) int64, optional, the scene's triangles as they are drawn together, where some are
-    pieces : Pieces, of all triangles
-    drawn, left : (f,) bool
-        Which of the pieces are drawn, and which are left for the cameras of the patch; nearer ones hide the others.
-    hidden : int, how many are hidden, of these and of pieces that are not told
-    straying : (2, e) float64, by how many pixels edges stray, and over how many
-    limited : int, edges that were not split since there would be too many pieces
+    images : Images, of the scene's vertices, then of the nodes at which its triangles were split
+    merged : (m, 3) int64, optional, the scene's triangles with representative vertices, if some were merged
+    pieces : Pieces (f), of all triangles
+    drawn : (f,) bool, True for pieces that are drawn
+    left : (f,) bool, True for pieces that are left to the patch's cameras; nearer pieces hide all others
+    hidden : int, number of hidden pieces, with those that are not among `pieces`
+    straying : (2, e) float64, deviation and length of edges, in pixels
+    limited : int, number of edges that were not split because there would be too many pieces
     """
 
     positions: np.ndarray
@@ -60,7 +60,7 @@ class WholeFaces:
     limited: int
 
     def scene_pieces(self) -> ScenePieces:
-        """What is left to the cameras of the patch."""
+        """Return the pieces that are left to the cameras of the patch, and the parts of the picture that they cover."""
         pieces, patch, points = self.pieces.select(self.left), self.patch, self.images.point
         low, high, unknown = _boxes(patch, self.images, pieces.nodes)
         cells = patch.border.with_boxes(low[:, ~unknown], high[:, ~unknown])
@@ -71,14 +71,19 @@ class WholeFaces:
 
 
 def _worth_it(cameras: Cameras, patch: Patch) -> bool:
-    """Whether the patch is a good part of what is seen of the mirror."""
+    """Return True if the patch covers more than `LEAST_SHARE` of the visible mirror."""
     areas = picture_areas(cameras)
     return bool(areas[np.isin(cameras.face, patch.face)].sum() > LEAST_SHARE * areas.sum())
 
 
 def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Boxes (2, f) in the picture, from `low` to `high`, in which the images of pieces (3, f) lie; of which pieces
-    nothing is known."""
+    """Bound the images of pieces with corners `nodes` (3, f) by boxes in the picture.
+
+    Returns
+    -------
+    low, high : (2, f) float64, corners of the boxes in pixels
+    unknown : (f,) bool, True for pieces without a bound
+    """
     found = images.found[nodes]
     spots = images.pixel[:, nodes]
     low, high = (end(np.where(found, spots, other), axis=1) for end, other in ((np.min, np.inf), (np.max, -np.inf)))
@@ -93,7 +98,7 @@ def _boxes(patch: Patch, images: Images, nodes: np.ndarray) -> tuple[np.ndarray,
 
 
 def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
-    """Which triangles (k,) of the patch may see some of the triangles with `corners` (3, 3, n), from the eye."""
+    """Return True for triangles (k,) of the patch that may reflect some of the triangles with `corners` (3, 3, n)."""
     if not corners.shape[2]:
         return np.zeros(len(patch), dtype=bool)
     corner = patch.cameras.corners
@@ -109,24 +114,24 @@ def _seeing(patch: Patch, corners: np.ndarray) -> np.ndarray:
     return mask(len(patch), tree.trace(cones)[0])
 
 
-@np.errstate(all="ignore")  # what is too large or too small to be told has no image, and is left
+@np.errstate(all="ignore")  # vertices out of the range of floats get no image, and their triangles are left
 def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, reach: float, settings: Settings,
                 most: int) -> WholeFaces | None:
-    """The whole faces of a scene, and what they leave to cameras.
+    """Find the triangles of a scene that can be drawn unclipped, and the pieces that are left to cameras.
 
     Parameters
     ----------
     cameras : Cameras
-    eligible : (n,) bool, cameras that are triangles of the mirror whole, and show no mirror
+    eligible : (n,) bool, True for cameras that are entire triangles of the mirror and show no mirror
     met : SceneAndMirrors, with a scene of triangles
-    reach : float, length of the longest path that there may be, in scene units
+    reach : float, upper bound on the length of paths, in scene units
     settings : Settings
-    most : int, pieces that there may be
+    most : int, largest number of pieces
 
     Returns
     -------
     WholeFaces or None
-        None where no part of the mirror may show any, or too few to be worth it.
+        None if no part of the mirror shows such triangles, or too few to be worth it.
     """
     tree = met.scene
     positions, triangles = tree.mesh.positions, tree.mesh.triangles
@@ -139,7 +144,7 @@ def whole_faces(cameras: Cameras, eligible: np.ndarray, met: SceneAndMirrors, re
             patch = Patch.largest(cameras, eligible & ~np.isin(cameras.face, patch.face[large]))
     if patch is None or len(patch) < LEAST_PATCH or not _worth_it(cameras, patch):
         return None
-    # a lamp's light is not to lose a part of what it falls on
+    # merge nothing for lamps, so that all lit surfaces remain
     least = 0.0 if isinstance(cameras.view, LampView) else TOGETHER * settings.tolerance
     merged = Merged.of(patch, tree, least, ~met.opacities.stops_light(np.arange(len(triangles))))
     images = merged.images

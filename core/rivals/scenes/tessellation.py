@@ -27,7 +27,7 @@ def tessellated(mesh: TriangleMesh, vertices: int) -> tuple[TriangleMesh, np.nda
     triangles lies in. No coarser than the mesh is."""
     positions, triangles, source = mesh.positions, mesh.triangles, np.arange(len(mesh.triangles))
     area = float(areas(positions[triangles]).sum())
-    # half as many vertices as triangles, which are equilateral and of three quarters of the longest side, more or less
+    # assume half as many vertices as triangles, which are about equilateral, with sides of 3/4 of the longest side
     longest = np.sqrt(area / max(vertices, 1) * 2.0 / np.sqrt(3.0)) / 0.75
     for _ in range(ROUNDS):
         ends, _, edge = shared_edges(triangles)

@@ -22,9 +22,10 @@ from ...support import breathe
 from ...trees import BoxTree, first_hits
 
 SMALLEST = 1e-12  # sine of a way to a triangle: one that runs along it is sent on as if it did not quite
-TOUCHING = 1e-9  # of a way: a hit that much before its end is the end
+TOUCHING = 1e-9  # share of a path's length: a hit as near before its end is the end
 GOLDEN = 0.6180339887498949
-NEAR, LEVELS = 0.5, 12  # of their distance from the lamp: how large parts of the mirror may be; times that it is split
+# largest size of a part of the mirror, relative to its distance from the lamp; how often triangles may be split for it
+NEAR, LEVELS = 0.5, 12
 Tracer = Callable[[np.ndarray, np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 """(origins (3, n), directions (3, n), triangles that they start on (n,), -1 for none) -> the first triangle (n,), -1
 where none, and its distance in lengths of the direction."""
@@ -83,7 +84,7 @@ class LightRays:
         self._trace = (tracer or by_boxes)(self._whole)
 
     def thrown(self, lamp: Lamp, count: int, seed: int = 0, depth: int = 1) -> Landed:
-        """About `count` rays from all over the mirror."""
+        """Trace about `count` light rays from the `lamp`, reflected all over the mirror up to `depth` times."""
         face, uv, area = _strewn(self._mirror, lamp, count, np.random.default_rng(seed))
         breathe()
         place = self._surface.places(face, uv)
@@ -121,18 +122,28 @@ class LightRays:
                       [one[which] for one in cosine], bent[which])
 
     def _lit(self, lamp: Lamp, place: np.ndarray, way: np.ndarray, face: np.ndarray) -> np.ndarray:
-        """Whether nothing stands between the lamp and places (3, n)."""
+        """Return True (n,) if nothing stands between the lamp and each `place` (3, n), on mirror triangle `face` (n,).
+
+        `way` (3, n) leads from the lamp to the place.
+        """
         _, distance = self._trace(place, -way, face)
         return distance == np.inf if lamp.sun else distance >= 1.0 - TOUCHING
 
     def _sine(self, face: np.ndarray, way: np.ndarray) -> np.ndarray:
-        """Of the angle (n,) between ways (3, n) and flat triangles."""
+        """Return the sine (n,) of the angle between each `way` (3, n) and the plane of its triangle `face` (n,)."""
         return np.abs(dot(way, self._surface.face_normal[:, face])) / np.maximum(norm(way), 1e-300)
 
     def _reflected(self, face: np.ndarray, uv: np.ndarray,
                    way: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Unit rays that leave the mirror, the cosine at which they met it, what of their light a path tracer finds,
-        and whether they had to be lifted."""
+        """Reflect rays with directions `way` (3, n) at the mirror.
+
+        Returns
+        -------
+        ray : (3, n) float64, unit directions
+        cosine : (n,) float64, of the angle of incidence
+        weight : (n,) float64, share of their light that a path tracer finds
+        lifted : (n,) bool, True for rays that would enter the surface and were lifted above it
+        """
         way = way / np.maximum(norm(way), 1e-300)
         ray = self._surface.unbent(face, uv, way)
         breathe()
@@ -140,13 +151,13 @@ class LightRays:
         breathe()
         self._surface.lift(face, uv, ray, way)
         weight = np.maximum(rise, 0.0) / np.maximum(self._sine(face, way), SMALLEST)
-        # a ray is turned by twice the angle that it has to the mirror's plane
+        # the ray's direction changes by twice its angle to the mirror's plane
         side = np.where(dot(way, self._surface.face_normal[:, face]) > 0.0, -1.0, 1.0)
         return ray, side * np.sqrt(np.clip(0.5 * (1.0 - dot(way, ray)), 0.0, 1.0)), weight, lifted
 
 
 def by_boxes(mesh: TriangleMesh) -> Tracer:
-    """NumPy's own."""
+    """Make a tracer of rays with NumPy, by a tree of boxes over `mesh`."""
     tree = BoxTree.build(mesh)
 
     def trace(origins: np.ndarray, directions: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -157,7 +168,14 @@ def by_boxes(mesh: TriangleMesh) -> Tracer:
 
 def _strewn(mirror: TriangleMesh, lamp: Lamp, count: int,
             rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (face, (u, v)) and the area that each stands for: more of them where more light comes, some everywhere."""
+    """Sample about `count` places on the mirror, more where more light arrives, some everywhere.
+
+    Returns
+    -------
+    face : (n,) int64, triangle of the mirror
+    uv : (2, n) float64, coordinates in it
+    area : (n,) float64, area of the mirror that each place represents
+    """
     owner, own = _parts(mirror, lamp)
     a, b, c = _corners(mirror, owner, own)
     normal = 0.5 * np.cross(b - a, c - a)
@@ -184,8 +202,13 @@ def _strewn(mirror: TriangleMesh, lamp: Lamp, count: int,
 
 
 def _parts(mirror: TriangleMesh, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
-    """The mirror's triangles in parts that are smaller than they are far from the lamp: the triangle (p,) of each, and
-    its corners (p, 3, 2) there as (u, v)."""
+    """Split the mirror's triangles into parts that are smaller than `NEAR` times their distance from the lamp.
+
+    Returns
+    -------
+    owner : (p,) int64, triangle of each part
+    own : (p, 3, 2) float64, its corners in the triangle, as (u, v)
+    """
     count = len(mirror.triangles)
     owner = np.arange(count)
     own = np.broadcast_to(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), (count, 3, 2))
@@ -206,7 +229,7 @@ def _parts(mirror: TriangleMesh, lamp: Lamp) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _corners(mirror: TriangleMesh, owner: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The world positions (p, 3) of three corners (p, 3, 2)."""
+    """Return the world positions, three (p, 3), of the parts' corners `own` (p, 3, 2) in triangles `owner` (p,)."""
     a, b, c = np.moveaxis(mirror.positions[mirror.triangles[owner]], 1, 0)
     first, second, third = (a + own[:, k, :1] * (b - a) + own[:, k, 1:] * (c - a) for k in range(3))
     return first, second, third

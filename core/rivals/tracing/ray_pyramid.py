@@ -1,5 +1,7 @@
-"""Which of many reflected rays passes nearest to a point: a pyramid of bounding cones over a grid of rays, searched
-from the top for all points at once, by branch and bound."""
+"""Search for the reflected ray that passes nearest to a point.
+
+A pyramid of bounding cones over a grid of rays is searched from the top for all points at once, by branch and bound.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -21,8 +23,8 @@ class RayPyramid:
     places, rays : (3, n) float64
         Unit directions.
     levels : list of (10, 4**level) float64
-        Cones of each level from the top, along the rows: centre, radius, axis, half angle, whether there is any, and
-        which ray stands for it; the last level holds the grid's own rays.
+        Cones of each level from the top, along the rows: centre, radius, axis, half angle, 1 if the block has rays,
+        and the index of its representative ray; the last level holds the grid's own rays.
     """
 
     places: np.ndarray
@@ -31,7 +33,7 @@ class RayPyramid:
 
     @classmethod
     def build(cls, grid: np.ndarray, places: np.ndarray, rays: np.ndarray) -> RayPyramid:
-        """`grid` (height, width) holds the index of each cell's ray, -1 where there is none."""
+        """Build the pyramid; `grid` (height, width) holds the index of each cell's ray, -1 if there is none."""
         depth = int(np.ceil(np.log2(max(*grid.shape, 1))))
         side = 2**depth
         full = np.full((side, side), -1)
@@ -44,8 +46,13 @@ class RayPyramid:
         return cls(places, rays, levels)
 
     def nearest(self, points: np.ndarray) -> tuple[np.ndarray, int]:
-        """The ray (v,) that passes nearest to each of `points` (3, v), by the angle between it and the way from where
-        it starts to the point; and how many cones were looked at."""
+        """Find the ray that passes nearest to each of `points` (3, v), by the angle at the ray's origin.
+
+        Returns
+        -------
+        ray : (v,) int64
+        visited : int, number of cones tested
+        """
         found, visited = np.full(points.shape[1], -1), 0
         for start in range(0, points.shape[1], POINTS_AT_ONCE):
             part = slice(start, start + POINTS_AT_ONCE)
