@@ -74,10 +74,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     core.ReflectionError
         Where the input cannot be reflected; its message is one sentence for the user.
     """
-    if context.mode != "OBJECT":
-        raise core.ReflectionError(IN_OBJECT_MODE)
     started = time.perf_counter()
-    core.use_threads(context.scene.render.threads)
+    _begin(context)
     yield 0.0, "Reading the scene"
     told, view = left_out(context, chosen), view or read_view(context)
     kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
@@ -138,6 +136,13 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[Mi
     if lines:
         result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
     return result, mesh_arrays(result, scene, surface, view, every)
+
+
+def _begin(context: bpy.types.Context) -> None:
+    """Raise an error outside Object Mode; let the core use as many threads as renders do."""
+    if context.mode != "OBJECT":
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    core.use_threads(context.scene.render.threads)
 
 
 def _with_faces(mirrors: list[Assembly], of_mirrors: list, placed: list) -> tuple[list, tuple, list[str]]:

@@ -83,18 +83,14 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
     whole.undo(bpy.data.batch_remove, [export_image])
-    materials: dict = {}
     # paths from the mirror on meet lamps themselves
-    lamps = [] if fog else lamps_that_show(context)
-    spots = dict(zip(placed, unwrapped.spots))
-    for result in lit:
-        mesh = placed[result.data].mesh
-        around = Surroundings(tuple(mirrors_of(result)), lamps_before(mesh, lamps, mirrors_of(result)),
-                              LaterMirrors.of(result), not result.reflection_mesh.window)
-        key = result.reflection_mesh.mirror, result.data
-        if key not in materials:
-            materials[key] = new_material(NAME, image, export_image, _mirror_materials(result), around, whole)
-            lay_out(mesh, result, view, spots[result.data], materials[key])
+    lamps, spots = [] if fog else lamps_that_show(context), dict(zip(placed, unwrapped.spots))
+    first = {(result.reflection_mesh.mirror, result.data): result for result in reversed(lit)}
+    materials = {key: new_material(NAME, image, export_image, _mirror_materials(result),
+                                   _surroundings(result, placed[result.data].mesh, lamps), whole)
+                 for key, result in first.items()}
+    for key, result in first.items():
+        lay_out(placed[result.data].mesh, result, view, spots[result.data], materials[key])
     matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
     with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
         steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte, by_mirror=False)
@@ -120,6 +116,12 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
+
+
+def _surroundings(result: bpy.types.Object, mesh: bpy.types.Mesh, lamps: list) -> Surroundings:
+    mirrors = mirrors_of(result)
+    return Surroundings(tuple(mirrors), lamps_before(mesh, lamps, mirrors), LaterMirrors.of(result),
+                        not result.reflection_mesh.window)
 
 
 def _plain_material(lit: list, seen: np.ndarray, materials: dict, whole: AllOrNothing) -> Steps[bpy.types.Material]:

@@ -15,12 +15,25 @@ _threads = [os.cpu_count() or 1]
 
 
 def use_threads(count: int) -> None:
-    """Let work be done by so many threads from now on, at least one. Results do not depend on their number."""
+    """Let work be done by so many threads from now on, at least one. Results do not depend on their number.
+
+    Examples
+    --------
+    >>> from core import use_threads
+    >>> use_threads(2)
+    """
     _threads[0] = max(int(count), 1)
 
 
 def in_parallel(work: Callable[[Part], Result], parts: Sequence[Part]) -> list[Result]:
-    """Return what `work` makes of each of the parts, in their order."""
+    """Return what `work` makes of each of the parts, in their order.
+
+    Examples
+    --------
+    >>> from core.support import in_parallel
+    >>> in_parallel(sum, [(1, 2), (3, 4)])
+    [3, 7]
+    """
     if _threads[0] == 1 or len(parts) < 2:
         found = []
         for part in parts:
