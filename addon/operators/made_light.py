@@ -65,10 +65,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     """
     _check(lit)
     dense = DENSE if samples >= FEWEST else 1
-    placed: dict[bpy.types.Mesh, Placed] = {}
-    for result in lit:
-        if result.data not in placed:
-            placed[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
+    placed = yield from _placed(lit, view, dense, whole)
     yield 0.04, "Reading the reflection"
     unwrapped = unwrap(list(placed.values()), view, dense)
     fog = has_fog(context.scene)
@@ -116,6 +113,15 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
+
+
+def _placed(lit: list, view: View, dense: int, whole: AllOrNothing) -> Steps[dict[bpy.types.Mesh, Placed]]:
+    """Return a prepared copy of each mesh of the reflections."""
+    found: dict[bpy.types.Mesh, Placed] = {}
+    for result in lit:
+        if result.data not in found:
+            found[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
+    return found
 
 
 def _surroundings(result: bpy.types.Object, mesh: bpy.types.Mesh, lamps: list) -> Surroundings:
