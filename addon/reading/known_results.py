@@ -19,7 +19,7 @@ def known_results(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> list:
     script has made or removed counts from the view layer's next update on."""
     key = scene.session_uid, layer.name
     if key not in _known:
-        # of what was removed just now the layer has an empty place
+        # the view layer holds None in place of an object that was just removed
         _known[key] = [obj for obj in layer.objects if obj is not None and obj.reflection_mesh.role in RESULTS]
     try:
         return [obj for obj in _known[key] if obj.reflection_mesh.role in RESULTS]

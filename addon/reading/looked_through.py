@@ -1,4 +1,4 @@
-"""What the camera looks through though its materials let no light through: walls that are taken away for it alone."""
+"""Detect opaque objects that are hidden from the camera only, e.g. walls that were removed to see into a room."""
 from __future__ import annotations
 
 import bpy
@@ -6,7 +6,9 @@ import numpy as np
 
 
 def looked_through(depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> bool:
-    """Whether the camera may see mirrors from within an object that it does not see itself."""
+    """Return True if the box of an object hidden from the camera intersects the box of a mirror. Hidden instancers
+    always count.
+    """
     unseen = [obj for obj in diffuse if is_unseen(obj, depsgraph.view_layer)]
     if not unseen:
         return False
