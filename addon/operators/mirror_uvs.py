@@ -56,7 +56,7 @@ TOLD = 1.0     # pixels
 
 @dataclass(frozen=True)
 class Choices:
-    """What the user chooses: the entries of `TARGETS` and `FRAMES`, and the file of a picture, or none."""
+    """The user's choices: entries of `TARGETS` and `FRAMES`, and the path of an image (or "")."""
 
     target: str = "COPY"
     frame: str = "CAMERA"

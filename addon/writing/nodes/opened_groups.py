@@ -25,7 +25,7 @@ def _open(tree: bpy.types.NodeTree, group: bpy.types.Node) -> None:
     inner = group.node_tree
     made = copied([node for node in inner.nodes if node.type not in BORDERS], tree)
     given = {socket.identifier: socket for socket in group.inputs}
-    # what comes in
+    # inputs of the group
     for node in inner.nodes:
         if node.type == "GROUP_INPUT":
             for link in [link for output in node.outputs for link in output.links if link.to_node in made]:

@@ -7,10 +7,10 @@ from .node_builder import Builder
 
 
 class ShaderBuilder(Builder):
-    """Adds shader nodes to a tree; where it takes a value, that may be a socket, a number or a colour."""
+    """Adds shader nodes to a tree. Each value may be a socket, a number or a colour."""
 
     def feed(self, value, socket: bpy.types.NodeSocket) -> None:
-        """A socket's value, a number or a colour into a socket."""
+        """Link or assign a value (a socket, a number or a colour) to a socket."""
         if isinstance(value, bpy.types.NodeSocket):
             self.tree.links.new(value, socket)
         elif socket.type == "RGBA":
@@ -79,7 +79,7 @@ class ShaderBuilder(Builder):
 
 
 def given(socket: bpy.types.NodeSocket):
-    """What a socket is given: another socket, or its own value."""
+    """Return the socket that is linked to `socket`, or else its own value."""
     if socket.is_linked:
         return socket.links[0].from_socket
     value = socket.default_value
@@ -87,7 +87,7 @@ def given(socket: bpy.types.NodeSocket):
 
 
 def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
-    """Give a socket a value of its own."""
+    """Remove the links to a socket and set its value."""
     for link in list(socket.links):
         tree.links.remove(link)
     socket.default_value = value

@@ -16,7 +16,7 @@ from .copied_nodes import copied
 from .shader_builder import ShaderBuilder
 
 MARK = "reflection_mesh_unblurred"
-TWIN_BELOW = 1000.0  # where nodes of EEVEE's own stand
+TWIN_BELOW = 1000.0  # vertical distance at which nodes for EEVEE alone are placed
 
 
 def show_unblurred(tree: bpy.types.NodeTree, looks: list[bpy.types.Node], output: bpy.types.Node,
