@@ -12,7 +12,7 @@ import numpy as np
 from ....core import ReflectionMesh, View, breathe
 from ....core.geometry import distinct
 
-SPACING = 2.0 ** -22  # relative to a coordinate; numbers that differ by less are adjacent in single precision, or nearly so
+SPACING = 2.0 ** -22  # relative to a coordinate; closer numbers are (next) neighbours in single precision
 SLIVER = 8.0 * SPACING  # relative to a coordinate; narrower triangles count as lines
 THIN = np.float32(64.0 * SPACING)  # relative to a coordinate; wider triangles are never flipped by rounding
 
