@@ -99,7 +99,7 @@ class _Unpack:
         return list(node.outputs[:3])
 
     def _at_first_corner(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """What one of the corners that an edge leads from says; all of them say the same."""
+        """Return the value at one of the corners from which an edge starts. All of them have the same value."""
         corner = self.builder.add("GeometryNodeCornersOfEdge")
         there = self.builder.add("GeometryNodeFieldAtIndex", data_type="FLOAT", domain="CORNER")
         index = next(socket for socket in there.inputs if socket.name == "Index")
@@ -119,7 +119,7 @@ class _Unpack:
         return node.outputs[0]
 
     def _rounded(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """A whole number: the mean of three that are equal may lie beside it."""
+        """Round to an integer, since the mean of three equal numbers may be slightly off."""
         node = self.builder.add("FunctionNodeFloatToInt", rounding_mode="ROUND")
         self.builder.join(number, node.inputs[0])
         return node.outputs[0]
