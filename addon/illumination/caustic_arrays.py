@@ -58,7 +58,7 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
     flat, positions = areas(positions[triangles]), positions + lift[:, None] * _normals(positions, triangles)
-    # where layers meet on a caustic, slivers stand upright between them and have many times their area
+    # slivers stand upright between the layers that meet on a caustic, and have many times their flat area
     share *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None]
     light *= share[:, :, None]
     breathe()
