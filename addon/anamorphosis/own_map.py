@@ -19,8 +19,11 @@ CORNER = 1.0 - 1e-6     # weight from which on a corner of a piece is one of its
 
 @dataclass(frozen=True)
 class OwnMap:
-    """Places (n, 2) in the view of an object's face corners, and which polygons (m,) the mirror shows, in part at
-    least; what is linear between the corners is wrong by up to `straying` pixels."""
+    """A map on an object's own mesh.
+
+    Positions (n, 2) of the face corners in the view, and True (m,) for polygons that the mirror shows at least in part.
+    Linear interpolation between the corners is wrong by up to `straying` pixels.
+    """
 
     source: bpy.types.Object
     pixels: np.ndarray
@@ -29,14 +32,15 @@ class OwnMap:
 
 
 def own_map(index: int, scene: DiffuseScene, pieces: PicturePieces) -> OwnMap:
-    """The map of the source `index` from the pieces of it that are seen.
+    """Return the map of the source `index` from its visible pieces.
 
-    Corners that are seen are where they are seen; others are where their triangle would show them were its map linear.
+    Visible corners get their position in the view. Others get the position from a linear extrapolation of their
+    triangle's map.
 
     Raises
     ------
     ReflectionError
-        Where the object's own mesh is not what is reflected, or holds no further map.
+        If the object's own mesh is not what is reflected, or cannot hold another map.
     """
     source = scene.sources[index]
     triangles = np.flatnonzero(scene.source_object == index)

@@ -43,7 +43,7 @@ class CodedMaterials:
         return self._dressed[key]
 
     def black(self) -> bpy.types.Material:
-        """Hides what is behind and shows nothing."""
+        """Return a material that occludes and emits nothing."""
         return self._material("Black")[0]
 
     def position(self) -> bpy.types.Material:

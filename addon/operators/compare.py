@@ -219,7 +219,7 @@ def remarks_on(context: bpy.types.Context, report: dict) -> list[str]:
 
 
 def summary(report: dict, folder: str) -> str:
-    """The report in one sentence."""
+    """Return the report in one sentence."""
     displacement, coverage = report["displacement_px"], report["coverage_percent"]
     if not report["judged_pixels"]:
         return f"The camera sees no mirror whose reflection could be judged; pictures in {folder}"

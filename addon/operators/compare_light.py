@@ -45,12 +45,12 @@ class Effort:
 
 
 def caustics_in(context: bpy.types.Context) -> list:
-    """The scene's caustics that are there to be compared.
+    """Return the scene's caustics, which will be compared.
 
     Raises
     ------
     ReflectionError
-        Where there are none, or some are hidden or have lost their lamp or mirror.
+        If there are none, or some are hidden or have lost their lamp or mirror.
     """
     found = [obj for obj in context.view_layer.objects if obj.reflection_mesh.role == "CAUSTICS" and obj.type == "MESH"]
     if not found:
@@ -126,7 +126,7 @@ def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) ->
 
 
 def light_summary(report: dict, folder: str) -> str:
-    """The report in one sentence."""
+    """Return the report in one sentence."""
     last = {run["method"]: run for run in report["runs"]}
     mesh, own = (last[method]["picture"]["receivers"]["psnr"] for method in (MESH, OWN))
     flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]

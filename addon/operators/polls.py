@@ -58,12 +58,14 @@ def in_object_mode(sentence: str) -> Obstacle:
 
 
 def has_camera(context: bpy.types.Context) -> str:
-    """The scene has a camera."""
+    """Return a sentence if the scene has no camera, else ""."""
     return "" if context.scene.camera is not None else NO_CAMERA
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """The scene has a mirror by role or material, or what is selected or active may be one, or is shown by one."""
+    """Return a sentence if the scene has no mirror by role or material, and no selected or active object may be a
+    mirror or is shown by one; else "".
+    """
     objects = context.view_layer.objects
     active = objects.active
     if active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}:
@@ -130,7 +132,7 @@ def has_what_clears(sentence: str, linked: str) -> Obstacle:
 
 
 def has_lamp(context: bpy.types.Context) -> str:
-    """The view layer has a lamp, or what is selected or has thrown light may be one."""
+    """Return a sentence if the view layer has no lamp, and no selected object or result may provide one; else ""."""
     objects = context.view_layer.objects
     active, selected = objects.active, list(islice(objects.selected, LOOKED_AT + 1))
     if len(selected) > LOOKED_AT or any(map(is_mesh_lamp, selected)) or (
@@ -140,7 +142,7 @@ def has_lamp(context: bpy.types.Context) -> str:
 
 
 def has_sheet(context: bpy.types.Context) -> str:
-    """The active object carries the map of a mirror."""
+    """Return a sentence if the active object has no map of a mirror, else ""."""
     active = context.view_layer.objects.active
     return NO_SHEET if active is None else why_no_sheet(active)
 

@@ -94,7 +94,7 @@ class Outcome:
     read: tuple = ()
 
     def summary(self, seconds: float) -> str:
-        """One line on what was generated."""
+        """Return one line on what was generated."""
         points = sum(obj.reflection_mesh.points for obj, _ in self.results)
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = (one_or_more(points, "1 point", "{count} points") if points

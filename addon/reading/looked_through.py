@@ -27,7 +27,7 @@ def is_unseen(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
 
 
 def _box(evaluated: bpy.types.Object) -> np.ndarray:
-    """The lowest and the highest corner (2, 3) of the box round an object, in world space."""
+    """Return the lowest and the highest corner (2, 3) of the bounding box of an object, in world space."""
     matrix = np.array(evaluated.matrix_world, dtype=np.float64)
     corners = np.array(evaluated.bound_box, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     return np.stack((corners.min(axis=0), corners.max(axis=0)))

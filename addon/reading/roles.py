@@ -74,7 +74,7 @@ def without_shadow_catchers(mirrors: list) -> tuple[list, list]:
     Raises
     ------
     ReflectionError
-        Where all of them are.
+        If all of them are shadow catchers.
     """
     caught = list(filter(catches_shadows, mirrors))
     if caught and len(caught) == len(mirrors):

@@ -217,7 +217,7 @@ def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
 
 
 def summary(plans: list[Plan], made: int, seconds: float) -> str:
-    """One line on what was baked."""
+    """Return one line on what was baked."""
     return one_or_more(sum(len(plan.frames) * len(plan.takes) for plan in plans),
                        "{made} of 1 frame baked into '{folder}', {seconds} s",
                        "{made} of {count} frames baked into '{folder}', {seconds} s",

@@ -144,8 +144,9 @@ def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> st
 
 
 def _lit(scene: CausticScene, pair: tuple, wanted: Asked) -> Steps[list]:
-    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws on all its receivers,
-    on the triangles of the scene; where none throws any, the error of the last."""
+    """Return the caustics (eye, part, mesh) of each point on the lamp and each part of a mirror, on all receivers. The
+    meshes refer to the triangles of the scene. If there are none, raise the last error.
+    """
     (mirror, lamp), lit, told = pair, [], None
     parts, receivers = scene.parts(mirror), scene.receivers[mirror]
     eyes = eyes_of(scene.depsgraph, lamp, wanted.places(mirror, lamp),

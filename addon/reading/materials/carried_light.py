@@ -40,7 +40,7 @@ def _is_carried(node: bpy.types.Node) -> bool:
 
 
 def _behind(node: bpy.types.Node) -> Iterator[bpy.types.Node]:
-    """The nodes that feed a node, with all that is in groups."""
+    """Yield the nodes that feed a node, including those inside groups."""
     for source in feeding(node):
         yield source
         yield from all_nodes(source.node_tree) if source.type == "GROUP" else ()

@@ -12,7 +12,7 @@ NAMES = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name", "UVMAP": "
 
 
 def all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
-    """The nodes of a tree and of all groups in it, each tree once."""
+    """Yield the nodes of a tree and of all groups in it, each tree once."""
     return _nodes(tree, set())
 
 

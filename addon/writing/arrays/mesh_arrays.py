@@ -67,7 +67,7 @@ class MeshArrays:
 
     @property
     def uv_maps(self) -> list[str]:
-        """Names of the UV maps, which loose points have as well."""
+        """Names of the UV maps. Loose points have UV maps as well."""
         return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
 
 

@@ -10,7 +10,7 @@ from .mesh_arrays import MeshArrays, origin_of, point_attributes, shown_layers
 
 
 def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
-    """The arrays of a result without faces; parameters as for `mesh_arrays`."""
+    """Return the arrays of a result without faces; parameters as for `mesh_arrays`."""
     discs = result.discs
     corner = _corner_of_vertex(scene)[discs.source_vertex]
     source, at = corner // 3, corner % 3

@@ -15,7 +15,7 @@ def groups_of_shaders(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
 
 
 def open_groups(tree: bpy.types.NodeTree) -> None:
-    """Put what is in groups that make shaders in the place of these, in a tree which is our own."""
+    """Replace groups that make shaders by their contents, in a tree that must be our own."""
     while groups := groups_of_shaders(tree):
         for group in groups:
             _open(tree, group)

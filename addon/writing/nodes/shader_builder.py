@@ -38,14 +38,14 @@ class ShaderBuilder(Builder):
         return node.outputs[2]
 
     def calculated(self, how: str, first, second=0.0) -> bpy.types.NodeSocket:
-        """A number from two, or from one."""
+        """Return the result of a Math node of one or two numbers."""
         node = self.add("ShaderNodeMath", operation=how)
         self.feed(first, node.inputs[0])
         self.feed(second, node.inputs[1])
         return node.outputs[0]
 
     def vector(self, how: str, first, second=None, **inputs) -> bpy.types.NodeSocket:
-        """A vector, or a length, from one or two vectors, and from numbers by the names of their inputs."""
+        """Return the result of a Vector Math node of one or two vectors. Further inputs are given by name."""
         node = self.add("ShaderNodeVectorMath", operation=how)
         for value, socket in ((first, node.inputs[0]), (second, node.inputs[1]),
                               *((value, node.inputs[name]) for name, value in inputs.items())):
@@ -54,20 +54,20 @@ class ShaderBuilder(Builder):
         return next(socket for socket in node.outputs if socket.enabled)
 
     def combined(self, x, y, z) -> bpy.types.NodeSocket:
-        """A vector of three numbers."""
+        """Return a vector of three numbers."""
         node = self.add("ShaderNodeCombineXYZ")
         for value, socket in zip((x, y, z), node.inputs):
             self.feed(value, socket)
         return node.outputs[0]
 
     def separated(self, vector) -> tuple:
-        """The three numbers of a vector."""
+        """Return the three components of a vector."""
         node = self.add("ShaderNodeSeparateXYZ")
         self.feed(vector, node.inputs[0])
         return tuple(node.outputs)
 
     def dot(self, first, second) -> bpy.types.NodeSocket:
-        """The product of two vectors, a number."""
+        """Return the dot product of two vectors."""
         return self.vector("DOT_PRODUCT", first, second)
 
     def added(self, first: bpy.types.NodeSocket, second: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
@@ -94,7 +94,7 @@ def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) ->
 
 
 def node_behind(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node that feeds a socket, past reroutes."""
+    """Return the node that feeds a socket, ignoring reroutes; None if nothing does."""
     while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
         socket = socket.links[0].from_node.inputs[0]
     return socket.links[0].from_node if socket.is_linked else None
