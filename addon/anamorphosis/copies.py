@@ -15,14 +15,14 @@ from .sheet_arrays import Sheet
 
 
 def source_of(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Object:
-    """The object that `obj` is a copy of, where that is still in the view layer, or itself."""
+    """Return the object that `obj` is a copy of if that is still in the view layer, else `obj`."""
     source = obj.reflection_mesh.mirror_uv_source
     return source if source is not None and source.name in context.view_layer.objects else obj
 
 
 @contextmanager
 def shown(context: bpy.types.Context, sources: list) -> Iterator[None]:
-    """Sources that copies stand in for are there, as long as the block reads them."""
+    """Show the sources that copies replace while the block reads them."""
     layer = context.view_layer
     hidden = [(obj, obj.hide_get(), obj.hide_render) for obj in sources if obj.name in layer.objects]
     hidden = [entry for entry in hidden if entry[1] or entry[2]]
@@ -41,13 +41,13 @@ def shown(context: bpy.types.Context, sources: list) -> Iterator[None]:
 
 def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Material | None,
                whole: AllOrNothing) -> Steps[bpy.types.Object]:
-    """The copy of a source object: a new one beside it, or the one that it has, written anew; the source is hidden.
-    Yields (fraction, "").
+    """Write the copy of a source object, a new one beside it or its existing one, and hide the source. Yields
+    (fraction, "").
 
     Parameters
     ----------
     paper : bpy.types.Material or None
-        What the copy shows in place of its source's materials; None leaves it what it has.
+        Material of the copy in place of its source's; None keeps the present ones.
     """
     source = sheet.source
     earlier = [obj for obj in context.scene.objects if obj.reflection_mesh.mirror_uv_source == source
@@ -74,13 +74,13 @@ def write_copy(context: bpy.types.Context, sheet: Sheet, paper: bpy.types.Materi
 
 
 def _on_paper(arrays: MeshArrays, paper: bpy.types.Material) -> MeshArrays:
-    """The same arrays with `paper` as the only material."""
+    """Return the same arrays with `paper` as the only material."""
     return replace(arrays, materials=[paper],
                    attributes=tuple(entry for entry in arrays.attributes if entry.name != "material_index"))
 
 
 def _render_map(mesh: bpy.types.Mesh, sheet: Sheet) -> str:
-    """The UV map that materials without a name of their own show: what it was, else the source's."""
+    """Return the UV map for materials without a named one: the present one, else the source's."""
     of_source = [name for name in sheet.arrays.uv_maps[1:]]
     earlier = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
     return earlier if earlier in of_source else next(iter(of_source), "")
@@ -94,12 +94,12 @@ def _new_copy(context: bpy.types.Context, source: bpy.types.Object, whole: AllOr
 
 
 def _hide(context: bpy.types.Context, source: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Two surfaces in one place would flicker."""
+    """Hide the source, since two surfaces in one place would flicker."""
     if source.library is None:
         whole.undo(setattr, source, "hide_render", source.hide_render)
         source.hide_render = True
     if source.name in context.view_layer.objects:
-        # what is hidden is not selected any more
+        # hiding an object deselects it, so store the selection first
         whole.undo(source.select_set, source.select_get())
         whole.undo(source.hide_set, source.hide_get())
         source.hide_set(True)

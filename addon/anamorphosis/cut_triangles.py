@@ -18,24 +18,24 @@ from ...core import PicturePieces, in_steps
 from ...core.geometry import solve
 from ..faults import Steps, part
 
-NEAR = 1e-6         # of a triangle's side: what is nearer is one place
-HULL = 0            # all triangles of the convex hull: which faces they come from Blender does not always tell rightly
-AT_ONCE = 200       # pieces along which triangles are cut between two looks at the user
-INWARDS = 0.9       # of the way from a piece's middle to its corners: on its border others begin
+NEAR = 1e-6         # relative to a triangle's side; closer points are equal
+HULL = 0            # option for all triangles of the convex hull, since Blender's face origins are not always right
+AT_ONCE = 200       # number of pieces between two interruptions for the user interface
+INWARDS = 0.9       # share of the way from a piece's middle to its corners; other pieces begin at its border
 
 
 @dataclass(frozen=True)
 class Parts:
-    """Parts of triangles: of those that a mirror shows, what it shows of them apart from the rest.
+    """Parts of triangles, each entirely visible in the mirror or not at all.
 
     Attributes
     ----------
     face : (n,) int64
-        Triangle that each part lies in.
+        Triangle that contains each part.
     weights : (n, 3, 3) float64
         Barycentric coordinates of the part's corners in it.
     pixels : (n, 3, 2) float64
-        Where the corners are seen in the largest image that shows the part; no numbers where none does.
+        Pixel positions of the corners in the largest image of the part; NaN if it is not visible.
     """
 
     face: np.ndarray
@@ -44,7 +44,7 @@ class Parts:
 
     @property
     def seen(self) -> np.ndarray:
-        """(n,) bool: whether the mirror shows the part."""
+        """True (n,) for parts that the mirror shows."""
         return np.isfinite(self.pixels[:, 0, 0])
 
 
@@ -80,7 +80,7 @@ def cut_triangles(pieces: PicturePieces, count: int) -> Steps[Parts]:
 
 
 def _tiled(pieces: PicturePieces, count: int) -> np.ndarray:
-    """Which triangles (count,) the pieces of a single image cover whole."""
+    """Return True (count,) for triangles that the pieces of a single image cover completely."""
     area = np.bincount(pieces.face, np.abs(np.linalg.det(pieces.weights)), minlength=count)
     low, high = np.full(count, len(pieces.face)), np.full(count, -1)
     np.minimum.at(low, pieces.face, pieces.image)
@@ -119,7 +119,7 @@ def _cut(face: int, pieces: PicturePieces) -> Steps[Parts]:
 
 
 def _within(spots: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (n, m, 3) of `spots` (n, m, 3) in triangles with `corners` (n, 3, 3).
+    """Return barycentric coordinates (n, m, 3) of `spots` (n, m, 3) in triangles with `corners` (n, 3, 3).
 
     By Cramer's rule: OpenBLAS divides each inverse of a small matrix between threads, and where other work keeps the
     processors busy, as a render does, these wait for each other thousands of times as long as they work.
@@ -129,8 +129,9 @@ def _within(spots: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 def _covered(pieces: PicturePieces) -> np.ndarray:
-    """Which pieces (k,) of one triangle larger images cover, in the middle and before each corner: they count nowhere,
-    and a mirror may show a triangle in a dozen images over one another."""
+    """Return True (k,) for pieces of one triangle that larger images cover, at the middle and near each corner. These
+    are ignored. A mirror may show a triangle in a dozen overlapping images.
+    """
     middle = pieces.weights.mean(axis=1, keepdims=True)
     spots = np.concatenate((middle, middle + INWARDS * (pieces.weights - middle)), axis=1)
     first = pieces.holding(np.repeat(pieces.face, 4), spots.reshape(-1, 3)).reshape(-1, 4)
@@ -138,17 +139,17 @@ def _covered(pieces: PicturePieces) -> np.ndarray:
 
 
 def _doubled(corners: np.ndarray) -> np.ndarray:
-    """Twice the areas (n,) of triangles (n, 3, 2)."""
+    """Return twice the areas (n,) of triangles (n, 3, 2)."""
     (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     return ux * vy - uy * vx
 
 
 def _longest(corners: np.ndarray) -> np.ndarray:
-    """Length (n,) of the longest side of triangles (n, 3, 2)."""
+    """Return the length (n,) of the longest side of triangles (n, 3, 2)."""
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
 
 
 def _clean(weights: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates without what single precision leaves beside the sides of a triangle."""
+    """Return barycentric coordinates without rounding errors at the sides of a triangle."""
     weights = np.where(weights < NEAR, 0.0, weights)
     return weights / weights.sum(axis=2, keepdims=True)

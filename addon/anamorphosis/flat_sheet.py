@@ -9,7 +9,7 @@ import numpy as np
 from ...core import ReflectionError
 from .sheet_arrays import SEEN, UV_MAP
 
-FLAT = 1e-3     # of a sheet's size: what it may be thick
+FLAT = 1e-3     # largest thickness, relative to a sheet's size
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,9 @@ class FlatSheet:
     Attributes
     ----------
     corners : (m, 3, 2) float64
-        In metres, from the sheet's lower left corner, right and up.
+        In metres, right and up from the sheet's lower left corner.
     uv : (m, 3, 2) float64
-        Where the corners are in the picture.
+        Positions of the corners in the picture.
     seen : (m,) bool
     size : (2,) float64
         Width and height in metres.
@@ -34,19 +34,19 @@ class FlatSheet:
 
 
 def why_no_sheet(obj: bpy.types.Object) -> str:
-    """A sentence where an object carries no map of a mirror; empty where it does."""
+    """Return a sentence if an object has no map of a mirror; "" if it has one."""
     if obj.type == "MESH" and UV_MAP in obj.data.uv_layers and SEEN in obj.data.attributes:
         return ""
     return f"'{obj.name}' has no UV map '{UV_MAP}': press Write Mirror UVs first."
 
 
 def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
-    """The sheet that `obj` is, which carries the map of a mirror; its own Y axis is up, and a unit has `metres`.
+    """Return the sheet `obj`, which has the map of a mirror. Its own Y axis is up, and a unit has `metres`.
 
     Raises
     ------
     ReflectionError
-        Where it carries none, is not flat, or has no area.
+        If it has no map, is not flat, or has no area.
     """
     without = why_no_sheet(obj)
     if without:
@@ -76,7 +76,7 @@ def flat_sheet(obj: bpy.types.Object, metres: float) -> FlatSheet:
 
 
 def _axes(obj: bpy.types.Object, world: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    """(2, 3): the unit directions right and up of a flat sheet, as who stands where its mirror is sees it."""
+    """Return the unit directions right and up (2, 3) of a flat sheet, as seen from the side of its mirror."""
     middle = world.mean(axis=0)
     _, extent, axes = np.linalg.svd(world - middle, full_matrices=False)
     if extent[1] <= FLAT * extent[0]:

@@ -1,4 +1,4 @@
-"""Which part of the camera's view a picture fills."""
+"""The part of the camera's view that a picture fills."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -20,13 +20,13 @@ class Frame:
 
     @classmethod
     def of(cls, kind: str, view: View, pixels: np.ndarray, proportion: float = 1.0) -> Frame:
-        """The frame for what a mirror shows at the places `pixels` (k, 3, 2) of pieces.
+        """Return the frame for the parts that a mirror shows, at the pixel positions `pixels` (k, 3, 2) of pieces.
 
         Parameters
         ----------
         kind : str
-            CAMERA: all that the camera sees. MIRROR: the box around what the mirror shows. WHOLE: the largest frame of
-            the `proportion` width / height that the mirror shows without a gap.
+            CAMERA: the whole view of the camera. MIRROR: the bounding box of what the mirror shows. WHOLE: the largest
+            frame with the aspect `proportion` (width / height) that the mirror shows without a gap.
         """
         whole = np.array(view.resolution, dtype=np.float64)
         if kind == "CAMERA":
@@ -38,12 +38,12 @@ class Frame:
         return cls(low, np.maximum(high - low, SMALLEST))
 
     def uv(self, pixels: np.ndarray) -> np.ndarray:
-        """Places in the picture, 0 to 1, of places in the view; beside it where those are no numbers."""
+        """Return positions in the picture, 0 to 1, from pixel positions. NaN becomes a position outside the picture."""
         return np.nan_to_num((pixels - self.low) / self.size, nan=NOWHERE).astype(np.float32)
 
 
 def _shown(view: View, pixels: np.ndarray) -> np.ndarray:
-    """(height, width) bool: in which pixels of the view the mirror shows a piece."""
+    """Return True (height, width) for pixels of the view in which the mirror shows a piece."""
     width, height = view.resolution
     flat = View.looking_at((0.5 * width, 0.5 * height, 1.0), (0.5 * width, 0.5 * height, 0.0), view.resolution,
                            orthographic_scale=float(max(width, height)), up=(0.0, 1.0, 0.0))
@@ -52,8 +52,9 @@ def _shown(view: View, pixels: np.ndarray) -> np.ndarray:
 
 
 def _largest_frame(shown: np.ndarray, proportion: float) -> tuple[np.ndarray, np.ndarray]:
-    """Lower left corner and size of the largest box of whole pixels in which all are shown; of several the one that is
-    nearest the middle of all that is shown."""
+    """Return the lower left corner and the size of the largest box of pixels that are all shown. Of several boxes,
+    return the one nearest to the middle of the shown pixels.
+    """
     height, width = shown.shape
     total = np.zeros((height + 1, width + 1), dtype=np.int64)
     total[1:, 1:] = shown.cumsum(axis=0).cumsum(axis=1)

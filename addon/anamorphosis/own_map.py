@@ -19,8 +19,11 @@ CORNER = 1.0 - 1e-6     # weight from which on a corner of a piece is one of its
 
 @dataclass(frozen=True)
 class OwnMap:
-    """Places (n, 2) in the view of an object's face corners, and which polygons (m,) the mirror shows, in part at
-    least; what is linear between the corners is wrong by up to `straying` pixels."""
+    """A map on an object's own mesh.
+
+    Positions (n, 2) of the face corners in the view, and True (m,) for polygons that the mirror shows at least in part.
+    Linear interpolation between the corners is wrong by up to `straying` pixels.
+    """
 
     source: bpy.types.Object
     pixels: np.ndarray
@@ -29,20 +32,21 @@ class OwnMap:
 
 
 def own_map(index: int, scene: DiffuseScene, pieces: PicturePieces) -> OwnMap:
-    """The map of the source `index` from the pieces of it that are seen.
+    """Return the map of the source `index` from its visible pieces.
 
-    Corners that are seen are where they are seen; others are where their triangle would show them were its map linear.
+    Visible corners get their position in the view. Others get the position from a linear extrapolation of their
+    triangle's map.
 
     Raises
     ------
     ReflectionError
-        Where the object's own mesh is not what is reflected, or holds no further map.
+        If the object's own mesh is not what is reflected, or cannot hold another map.
     """
     source = scene.sources[index]
     triangles = np.flatnonzero(scene.source_object == index)
     corners, polygon = _own_triangles(source, len(triangles))
     in_source = np.flatnonzero(scene.source_object[pieces.face] == index)
-    # of each triangle the image that shows the most of it
+    # for each triangle, the image that shows the largest part of it
     face = scene.source_face[pieces.face[in_source]]
     image = pieces.image[in_source]
     breathe()
@@ -91,7 +95,7 @@ def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> Steps[bpy
 
 
 def _own_triangles(source: bpy.types.Object, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Face corners (m, 3) and polygon (m,) of each of the `count` triangles that are reflected."""
+    """Return the face corners (m, 3) and the polygon (m,) of each of the `count` reflected triangles."""
     if source.type != "MESH" or source.library is not None or source.is_instancer:
         raise ReflectionError(f"'{source.name}' has no mesh of its own that could be written: choose A Copy.")
     mesh = source.data
@@ -107,8 +111,9 @@ def _own_triangles(source: bpy.types.Object, count: int) -> tuple[np.ndarray, np
 
 
 def _fitted(face: np.ndarray, weights: np.ndarray, pixels: np.ndarray, count: int) -> np.ndarray:
-    """Places (count, 3, 2) of the corners of triangles by the linear maps that fit their pieces best; no numbers where
-    a triangle has no pieces."""
+    """Return pixel positions (count, 3, 2) of the corners of triangles, from linear maps fitted to their pieces; NaN
+    for triangles without pieces.
+    """
     share = np.repeat(np.abs(np.linalg.det(weights)) + 1e-12, 3)
     corners, places, owner = weights.reshape(-1, 3), pixels.reshape(-1, 2), np.repeat(face, 3)
     square, right = np.zeros((count, 3, 3)), np.zeros((count, 3, 2))

@@ -13,11 +13,11 @@ from ..reading import all_nodes
 from ..reading.materials import feeding, shown_output
 from .sheet_arrays import UV_MAP
 
-WHITE = (0.8, 0.8, 0.8, 1.0)    # as light as paper is
+WHITE = (0.8, 0.8, 0.8, 1.0)    # albedo of white paper
 
 
 def load_picture(name: str, whole: AllOrNothing) -> bpy.types.Image:
-    """The image of that name in the file that is open, or the one at that path, which is loaded where it is not yet.
+    """Return the image with that name in the open file, or the one at that path, which is loaded if necessary.
 
     Raises
     ------
@@ -39,7 +39,8 @@ def load_picture(name: str, whole: AllOrNothing) -> bpy.types.Image:
 
 
 def paper_with(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.Material:
-    """Paper that shows an image within its borders and is white beside it and where it is transparent."""
+    """Return a material that shows an image within its borders and is white outside and where the image is transparent.
+    """
     material = bpy.data.materials.new("Mirror Picture")
     whole.undo(bpy.data.materials.remove, material)
     tree = compat.use_nodes(material)
@@ -61,12 +62,12 @@ def paper_with(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.Materia
     link(look.outputs["Color"], ink)
     link(next(socket for socket in mixed.outputs if socket.type == "RGBA"), shader.inputs["Base Color"])
     link(shader.outputs["BSDF"], output.inputs["Surface"])
-    tree.nodes.active = look    # what solid view shows by texture, and what is painted on
+    tree.nodes.active = look    # active node: shown by solid view and used by texture painting
     return material
 
 
 def picture_of(obj: bpy.types.Object) -> bpy.types.Image | None:
-    """The picture that the materials of an object show by the map of its mirror; None where they show none by it."""
+    """Return the picture that an object's materials show with the map of its mirror; None if they do not."""
     trees = [slot.material.node_tree for slot in obj.material_slots
              if slot.material is not None and compat.uses_nodes(slot.material)]
     rendered = next((layer.name for layer in obj.data.uv_layers if layer.active_render), "")
@@ -76,7 +77,7 @@ def picture_of(obj: bpy.types.Object) -> bpy.types.Image | None:
 
 
 def _shown(tree: bpy.types.NodeTree) -> Iterator[bpy.types.Node]:
-    """The nodes on which it hangs what a material shows."""
+    """Yield the nodes that determine what a material shows."""
     output = shown_output(tree)
     for node in feeding(output) if output is not None else ():
         yield node
@@ -85,7 +86,9 @@ def _shown(tree: bpy.types.NodeTree) -> Iterator[bpy.types.Node]:
 
 
 def _map_of(node: bpy.types.Node, rendered: str) -> str:
-    """The name of the UV map that an image lies by as it is, `rendered` that of renders; empty where it is none."""
+    """Return the name of the UV map that an image uses unchanged; "" if there is none. `rendered` is the map of
+    renders.
+    """
     socket = node.inputs["Vector"]
     while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
         socket = socket.links[0].from_node.inputs[0]

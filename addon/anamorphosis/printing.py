@@ -36,8 +36,9 @@ def print_size(sheet: FlatSheet, dpi: float) -> tuple[int, int]:
 
 
 def printed(sheet: FlatSheet, picture: np.ndarray, dpi: float) -> Steps[np.ndarray]:
-    """The sheet with `picture` on it, as `pixels_of` gives it, (height, width, 3) uint8 from the highest row down,
-    white where the mirror does not show it; yields (fraction, stage)."""
+    """Return the sheet with `picture` (from `pixels_of`) as (height, width, 3) uint8, rows from top to bottom. It is
+    white where the mirror does not show it. Yields (fraction, stage).
+    """
     width, height = print_size(sheet, dpi)
     corners, uv = sheet.corners[sheet.seen] / INCH * dpi * FINER, sheet.uv[sheet.seen]
     low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
@@ -54,7 +55,7 @@ def printed(sheet: FlatSheet, picture: np.ndarray, dpi: float) -> Steps[np.ndarr
 
 
 def _band(corners: np.ndarray, uv: np.ndarray, framed: np.ndarray, width: int, rows: tuple[int, int]) -> np.ndarray:
-    """The rows of pixels from the first to before the last of `rows`, counted from below, (rows, width, 3) uint8."""
+    """Return the rows of pixels in the half-open range `rows`, counted from below, as (rows, width, 3) uint8."""
     start, end = rows
     places = np.concatenate((corners.reshape(-1, 2), np.zeros((3 * len(corners), 1))), axis=1)
     lines, across, bottom = (end - start) * FINER, width * FINER, start * FINER
@@ -116,7 +117,7 @@ def pixels_of(image: bpy.types.Image) -> np.ndarray:
 
 
 def encoded(pixels: np.ndarray, sheet: FlatSheet, dpi: float, svg: bool) -> bytes:
-    """A PNG that knows its size, or an SVG of exactly the sheet's size around it, with the sheet's border."""
+    """Return a PNG with its physical size, or an SVG around it with the exact size and the border of the sheet."""
     png = png_picture(pixels, round(dpi / INCH))
     if not svg:
         return png

@@ -15,14 +15,15 @@ from .frame import Frame
 
 UV_MAP = "Mirror UV"
 SEEN = "mirror_seen"
-BITS = 21           # of a coordinate, counted in what follows
-ONE_PLACE = 1e-6    # of a sheet's size: vertices of neighbouring faces that lie nearer are one
+BITS = 21           # bits of a coordinate, counted in units of ONE_PLACE
+ONE_PLACE = 1e-6    # relative to a sheet's size; closer vertices of neighbouring faces are merged
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """One source object cut: `arrays` to be written in the space of `matrix`, with shading `normals` (m, 3, 3), and the
-    names of UV maps that there is no room for beside the new one."""
+    """One source object that was cut: `arrays` in the space of `matrix`, shading `normals` (m, 3, 3), and the names of
+    UV maps for which there is no room beside the new one.
+    """
 
     source: bpy.types.Object
     matrix: np.ndarray
@@ -32,7 +33,7 @@ class Sheet:
 
 
 def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
-    """The source `index` of `scene`, cut into those of `parts`."""
+    """Return the source `index` of `scene`, cut into its `parts`."""
     own = np.flatnonzero(scene.source_object[parts.face] == index)
     face, weights, pixels, seen = parts.face[own], parts.weights[own], parts.pixels[own], parts.seen[own]
     source = scene.sources[index]
@@ -73,7 +74,7 @@ def sheet(index: int, scene: DiffuseScene, parts: Parts, frame: Frame) -> Sheet:
 
 
 def _welded(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 3) float32 and triangles (m, 3) of corners (m, 3, 3), those in one place joined."""
+    """Return vertices (n, 3) float32 and triangles (m, 3) of corners (m, 3, 3), with coincident corners merged."""
     corners = places.reshape(-1, 3)
     low = corners.min(axis=0)
     grid = max(float((corners.max(axis=0) - low).max()) * ONE_PLACE, 1e-30)

@@ -1,4 +1,4 @@
-"""What is benchmarked: the open file's view, mirrors and diffuse scene, as arrays."""
+"""The input of a benchmark: the view, mirrors and diffuse scene of the open file, as arrays."""
 from __future__ import annotations
 
 from dataclasses import dataclass

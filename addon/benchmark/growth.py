@@ -1,4 +1,4 @@
-"""How methods' seconds grow with the scene and with the mirror, on the talk's setting made finer and finer."""
+"""Measure how the methods' run times grow with the scene and the mirror, in the talk's setting at increasing detail."""
 from __future__ import annotations
 
 import time
@@ -21,8 +21,9 @@ TITLES = {"BVHTREE": "Blender's BVHTree"}
 
 def growths(budget: float, tell: Callable[[str], None] = print, sizes: tuple = (VERTICES, TRIANGLES),
             pixels: int = PIXELS) -> tuple[list[Growth], list[str]]:
-    """Seconds of a few methods over the diffuse vertices and over the mirror's triangles, and sentences on the sizes
-    that were left out, since a smaller one had taken longer than `budget` seconds."""
+    """Return the run times of a few methods over the number of diffuse vertices and of mirror triangles, and sentences
+    on sizes that were left out because a smaller one took longer than `budget` seconds.
+    """
     lines, left_out = [], []
     for axis, make, counts in (("diffuse vertices", with_vertices, sizes[0]),
                                ("mirror triangles", with_mirror_triangles, sizes[1])):
@@ -54,7 +55,9 @@ def growths(budget: float, tell: Callable[[str], None] = print, sizes: tuple = (
 
 
 def _seconds(made: MadeScene, rival, value: float, hits) -> float | None:
-    """Of the quicker of two runs, or of one that takes more than a second; None where the memory does not suffice."""
+    """Return the shorter run time of two runs, or that of one run longer than a second; None if memory does not
+    suffice.
+    """
     best = None
     for _ in range(2):
         try:

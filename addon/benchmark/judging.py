@@ -1,8 +1,8 @@
-"""How far off a method is, in two measures: at the pixels' centres, and over the pixels' area.
+"""Measure the errors of a method in two ways: at the pixels' centres, and over the area of the pixels.
 
-A picture is more than its pixels' centres. A ray tracer is exact there, by definition, since the truth is traced along
-the same rays; between them it knows nothing, and shows its nearest sample. A mesh is drawn wherever one looks. So both
-are asked at places anywhere in the pixels as well.
+A picture is more than its pixels' centres. A ray tracer is exact there by definition, since the ground truth is traced
+along the same rays. Between them it shows its nearest sample. A mesh is defined everywhere. So both are also compared
+at random places in the pixels.
 """
 from __future__ import annotations
 
@@ -20,14 +20,18 @@ WRONG = ("hole", "spill", "wrong_layer")
 
 @dataclass(frozen=True)
 class Sampled:
-    """What a method made: a picture with `across` x `across` samples a pixel, or a mesh, which the picture holds."""
+    """The output of a method: a picture with `across` x `across` samples per pixel, or a mesh, which is part of the
+    picture.
+    """
 
     picture: RivalPicture
     across: int = 1
 
 
 def look(made: Sampled, truth: Truth) -> tuple[np.ndarray, np.ndarray]:
-    """Triangle (n,), negative where none, and position (n, 3) that a method shows at the places of a truth."""
+    """Return the triangle (n,), negative for none, and the position (n, 3) that a method shows at the places of a
+    truth.
+    """
     width, height = truth.view.resolution
     picture = made.picture
     if picture.mesh is not None:
@@ -43,7 +47,7 @@ def look(made: Sampled, truth: Truth) -> tuple[np.ndarray, np.ndarray]:
 
 
 def errors(case: Case, truths: list[Truth], made: Sampled) -> dict:
-    """Displacement and coverage of what a method made over all places of the truths, which show some of the scene.
+    """Return displacement and coverage of a method's output at all places of the truths that show a part of the scene.
 
     Returns
     -------

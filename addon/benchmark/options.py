@@ -1,4 +1,4 @@
-"""What a benchmark runs, and for how long."""
+"""Options of a benchmark: methods, time limits and resolution."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -10,24 +10,24 @@ from .methods import METHODS
 
 @dataclass(frozen=True)
 class Options:
-    """What a benchmark runs.
+    """Options of a benchmark.
 
     Attributes
     ----------
     methods : tuple of str
-        Keys of `METHODS`; all where empty.
+        Keys of `METHODS`; empty for all.
     budget : float
-        Seconds for each value of a method's knob, on each scene.
+        Seconds for each value of a method's parameter, on each scene.
     pixels : int or None
-        The picture's longer side; the render's own where None.
+        Longer side of the picture; None for the render's.
     samples : int
-        Per pixel of the two pictures.
+        Samples per pixel of the two pictures.
     growth : float
-        Seconds for each point of the growth of methods, which is left out where 0.
+        Seconds for each point of the growth of run times; 0 leaves it out.
     work : bool
-        Whether the talk's setting is counted.
+        True to count the work in the talk's setting.
     tell : callable
-        Is told what is done, a line at a time.
+        Called with each line of progress.
     """
 
     methods: tuple = ()

@@ -12,13 +12,13 @@ from ...core import TriangleMesh, View
 from ...core.rivals import ITSELF, PrimaryHits, Rival, RivalPicture, Work, cast_by_blocks
 from ...core.rivals.tracing import plane_distance
 
-TOUCHING = 1e-5  # of a mesh's size: single precision cannot tell a nearer hit from the surface the ray starts on
-PASSES = 4  # hits of the ray's own triangle that are passed over
+TOUCHING = 1e-5  # relative to a mesh's size; single precision cannot separate closer hits from the ray's start
+PASSES = 4  # number of hits on the ray's own triangle that are skipped
 
 
 def traced_by_blender(view: View, mirror: TriangleMesh, scene: TriangleMesh, block: int,
                       hits: PrimaryHits) -> RivalPicture:
-    """`core.rivals.ray_tracing.traced` with Blender's tree."""
+    """Do `core.rivals.ray_tracing.traced` with Blender's tree."""
     work = Work()
     tree = _Tree(scene)
     mirror_tree = _Tree(mirror) if hits.meets_mirror.any() else None
@@ -52,7 +52,7 @@ class _Tree:
 
     def first_hits(self, places: np.ndarray, rays: np.ndarray,
                    own: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Triangle (n,), -1 where none, and distance (n,), infinite where none, of rays (3, n)."""
+        """Return the first triangle (n,), -1 for none, and its distance (n,), infinite for none, of rays (3, n)."""
         count = places.shape[1]
         triangle, skip = np.full(count, -1), np.full(count, self.touching)
         left, cast = np.arange(count), self.tree.ray_cast

@@ -14,13 +14,14 @@ from .judging import Sampled, errors
 from .methods import Method
 from .truth import Truths
 
-SHORT, REPEATS = 0.5, 2     # what takes less seconds is run so often, and the quickest run counts
+SHORT, REPEATS = 0.5, 2     # runs shorter than SHORT seconds are repeated up to REPEATS times; the fastest counts
 
 
 @dataclass(frozen=True)
 class Contest:
-    """What every method is run on and judged by: a case, what the eye sees of its mirror, which is given to all, and
-    the truth."""
+    """The common input of all methods: a case, the visible points of its mirror (precomputed for all), and the ground
+    truth.
+    """
 
     case: Case
     hits: PrimaryHits
@@ -28,7 +29,7 @@ class Contest:
 
 
 def run_method(contest: Contest, key: str, method: Method, budget: float) -> tuple[list[Run], list[str]]:
-    """Runs of one method, and sentences on the values that were left out.
+    """Return the runs of one method, and sentences on the values that were left out.
 
     Parameters
     ----------
@@ -46,7 +47,7 @@ def run_method(contest: Contest, key: str, method: Method, budget: float) -> tup
         except (ReflectionError, MemoryError) as error:
             reason = str(error).rstrip(".") or "the memory does not suffice"
             return runs, [f"{method.title}: {method.knob} {left} left out: {reason}."]
-        # of processor time, which others who work on the machine do not lengthen
+        # processor time does not depend on other work on the machine
         expected = method.growth * min(took, cpu)
         numbers = errors(contest.case, [contest.truths.centres], made)
         numbers["area"] = errors(contest.case, contest.truths.area, made)
@@ -60,8 +61,9 @@ def run_method(contest: Contest, key: str, method: Method, budget: float) -> tup
 
 
 def with_fronts(runs: list[Run]) -> tuple[Run, ...]:
-    """The runs, each told whether it is on the Pareto front of seconds and mean error, in both measures; errors below
-    `LEAST` are the same."""
+    """Return the runs, each marked if it is on the Pareto front of run time and mean error, in both measures. Errors
+    below `LEAST` are equal.
+    """
     for name, numbers in (("centres", lambda run: run.numbers), ("area", lambda run: run.numbers["area"])):
         best = pareto(np.array([run.total for run in runs]),
                       np.array([max(numbers(run)["mean_error_px"], LEAST) for run in runs])) if runs else []
@@ -71,7 +73,8 @@ def with_fronts(runs: list[Run]) -> tuple[Run, ...]:
 
 
 def _quickest(contest: Contest, method: Method, value: float) -> tuple[Sampled, dict, float, float]:
-    """What a value makes, its seconds by stage and processor seconds in the quickest run, and how long the first took.
+    """Return the output for a value, its run times by stage and processor time in the fastest run, and the duration of
+    the first run.
     """
     best, first = None, 0.0
     for _ in range(REPEATS):

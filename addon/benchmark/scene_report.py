@@ -62,14 +62,14 @@ def scene_report(context: bpy.types.Context, name: str, folder: str, options: Op
 
 
 def _least(case: Case) -> PrimaryHits:
-    """What the eye sees, in the quickest of three runs, as methods are timed."""
+    """Return the visible points of the mirror, from the fastest of three runs, as methods are timed."""
     return min((primary_hits(case.view, case.mirror, case.scene.mesh) for _ in range(3)),
                key=lambda hits: sum(hits.seconds.values()))
 
 
 def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, folder: str,
            samples: int) -> tuple[tuple, dict]:
-    """The pictures of the general camera's mesh beside Cycles', and Cycles' seconds for them."""
+    """Return the pictures of the mesh for a general camera beside Cycles', and Cycles' render times."""
     case = contest.case
     result = reflect(case.view, case.mirror, case.scene.mesh, Settings(SHOWN))
     _add(copied, case, result)
@@ -85,7 +85,7 @@ def _shown(context: bpy.types.Context, copied: CopiedScene, contest: Contest, fo
 
 
 def _add(copied: CopiedScene, case: Case, result) -> None:
-    """The reflection mesh as an object of the copied scene, seen by the camera only, as `generate` makes it."""
+    """Add the reflection mesh to the copied scene, visible to the camera only, as `generate` makes it."""
     surface = MirrorSurface(case.mirror, case.triangle, np.zeros_like(case.triangle), [None])
     arrays = mesh_arrays(result, case.scene, surface, case.view)
     mesh = bpy.data.meshes.new("Benchmark")

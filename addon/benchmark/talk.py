@@ -1,4 +1,4 @@
-"""What each method counts on the setting of the talk's cost model, beside what the model predicts."""
+"""Count the work of each method in the setting of the talk's cost model, and compare it with the model's prediction."""
 from __future__ import annotations
 
 from functools import partial
@@ -26,7 +26,7 @@ LINES = (
 
 
 def costs(pixels: int = 1024) -> tuple[list[Cost], str]:
-    """Counted and predicted work of the methods that the talk compares, and a sentence on the setting."""
+    """Return the counted and predicted work of the methods in the talk, and a sentence on the setting."""
     made = talk_setting((pixels, pixels))
     hits = primary_hits(made.view, made.mirror, made.scene)
     found = []

@@ -27,26 +27,26 @@ COARSER = 2.0 ** 0.5    # times as far apart as pixels are the places in one ren
 
 @dataclass(frozen=True)
 class Truth:
-    """What Cycles shows at the centres of a picture's pixels (n), along the rows from below.
+    """The ground truth at the centres of a picture's n pixels, in rows from bottom to top.
 
     Attributes
     ----------
     columns, rows : (width,), (height,) float64
-        Where the centres lie in the picture that is judged, in its pixels.
+        Positions of the centres in the compared picture, in its pixels.
     view : View
-        The eye whose pixels' centres they are: the same eye, another lattice.
+        View whose pixel centres these are: the same eye, another grid of pixels.
     mirror, judged, empty : (n,) bool
-        Where the eye sees a mirror; the same without bent normals and mirrors seen in mirrors; those of them where no
-        diffuse object is reflected.
+        True where a mirror is visible; the same without bent normals and mirrors in mirrors; those of them that reflect
+        no diffuse object.
     pixel : (k,) int64
-        The judged pixels that show a diffuse object.
+        Indices of the judged pixels that show a diffuse object.
     source, face : (k,) int64
         Diffuse object and polygon there.
     position : (k, 3) float64
     motion : (k,) float64
-        Scene units from one pixel of the judged picture to the next, not a number where unknown.
+        Scene units from one pixel of the compared picture to the next, NaN if unknown.
     mirror_depth, scene_depth : (height, width) float64
-        As in `PrimaryHits`.
+        See `PrimaryHits`.
     """
 
     columns: np.ndarray
@@ -114,7 +114,9 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
 
 
 def coarser(size: tuple[int, int]) -> tuple[int, int]:
-    """A size smaller by `COARSER`, whose sides share no divisor with those of `size`; the same shape, more or less."""
+    """Return a size smaller by `COARSER`, whose sides have no common divisor with those of `size`; nearly the same
+    aspect.
+    """
     def side(length: int) -> int:
         found = max(2, round(length / COARSER))
         while gcd(found, length) > 1:
@@ -124,7 +126,9 @@ def coarser(size: tuple[int, int]) -> tuple[int, int]:
 
 
 def lattice_in(view: View, other: View) -> tuple[np.ndarray, np.ndarray]:
-    """Where the columns (w,) and rows (h,) of the centres of another lattice of the same eye lie in a view's pixels."""
+    """Return the positions of the pixel columns (w,) and rows (h,) of `other` in pixels of `view`. Both views have the
+    same eye.
+    """
     found = []
     last = 3 if view.orthographic else 2
     sign = 1.0 if view.orthographic else -1.0
@@ -137,7 +141,7 @@ def lattice_in(view: View, other: View) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _view(context: bpy.types.Context, scene: bpy.types.Scene, case: Case, lattice: tuple[int, int]) -> View:
-    """The copied camera as it stands."""
+    """Return the view of the copied camera."""
     render = scene.render
     projection = scene.camera.calc_matrix_camera(context.evaluated_depsgraph_get(), x=lattice[0], y=lattice[1],
                                                  scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y)

@@ -36,7 +36,7 @@ INTERRUPTED = "Interrupted: the frames that are done stay, and the same command 
 
 
 def add_bake(parser: argparse.ArgumentParser) -> None:
-    """The options of the verb, but for settings and place."""
+    """Add the options of the command, except for settings and place."""
     parser.add_argument("--frames", "--frame", type=text, metavar="LIST",
                         help="as 1-24, or 1-100:2 with a step, or 3,5-10 (else the scene's range)")
     parser.add_argument("--camera", action=Names, nargs="+", default=[], metavar="NAME",
@@ -62,7 +62,7 @@ def add_bake(parser: argparse.ArgumentParser) -> None:
 
 
 def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
-    """Bake what is missing; then save a copy of the file that plays it, unless that is not wanted."""
+    """Bake the missing frames. Then save a copy of the file that plays them, unless it is not wanted."""
     started = time.perf_counter()
     _check(options)
     thrown = options.what == "CAUSTICS"
@@ -77,13 +77,13 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
 
     def tell(record: FrameRecord) -> None:
         done.append(record)
-        # as Blender tells of pictures: workers of Flamenco read it
+        # same form as Blender's message on images, which workers of Flamenco parse
         print(*(f"Saved: '{os.path.join(folder, file)}'" for file in record.files), sep="\n", flush=True)
     elsewhere = _made_side_by_side(scene, folder, options) if options.jobs > 1 else 0
 
     def planned(layer: str) -> Plan:
         forget_chance(context)
-        # what others have just made is not made again
+        # skip frames that other processes have just baked
         return plan_of(context, folder, options.frames or "", wanted, cameras=cameras, layer=layer,
                        overwrite=options.overwrite and options.jobs == 1, eyes=options.eyes or 0,
                        lamps=tuple(meant_lamps(context)) if thrown else (), leave_out=options.leave_out)
@@ -91,7 +91,7 @@ def bake(context: bpy.types.Context, options: argparse.Namespace) -> None:
     told = remarks + scene_remarks(context, cameras, thrown)
     told += layer_remarks(scene, layers)
     if not options.frames_only:
-        # of a farm's chunk others have more frames
+        # a chunk of a farm does not know the other frames
         told += empty_remarks(list(chain.from_iterable(baked.sequences for baked in made)))
         told += show_layers(context, made)[1]
         save_blend(path)
@@ -113,7 +113,7 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _player_path(folder: str, options: argparse.Namespace) -> str:
-    """The file that plays the frames, which can be saved there as far as can be told before."""
+    """Return the path of the file that plays the frames. Check in advance that it can be saved."""
     stem = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or "scene"
     path = os.path.join(folder, f"{stem} {options.what.lower()}.blend")
     if os.path.isdir(folder) and not options.frames_only:
@@ -122,7 +122,7 @@ def _player_path(folder: str, options: argparse.Namespace) -> str:
 
 
 def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:
-    """Let processes make what is missing; returns how many frames that was."""
+    """Bake the missing frames in several processes. Return the number of frames."""
     steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames or ""), options.jobs,
                          lambda line: print(line, flush=True))
     return announced(steps, options.progress)

@@ -15,7 +15,7 @@ from .progress import announced
 
 
 def add_compare(parser: argparse.ArgumentParser) -> None:
-    """The options of the verb, but for its place."""
+    """Add the options of the command, except for its place."""
     add_settings(parser)
     parser.add_argument("--samples", type=int, default=16, metavar="N", help="samples per pixel of the pictures (16)")
     parser.add_argument("--scene-samples", action="store_true",

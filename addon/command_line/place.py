@@ -1,4 +1,4 @@
-"""Where a verb of the command line works: the scene, view layer, camera and frame that its options name."""
+"""The place where a command works: the scene, view layer, camera and frame in its options."""
 from __future__ import annotations
 
 import argparse
@@ -13,12 +13,12 @@ from .options import text
 
 
 def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
-    """The options that say where.
+    """Add the options for the place.
 
     Parameters
     ----------
     frame : bool
-        Whether the verb works on one frame, and so by one camera.
+        True if the command works on one frame, and so with one camera.
     """
     # templates of farms name the scene even where none is given
     parser.add_argument("--scene", type=text if frame else str, metavar="NAME", help="the scene (else the file's own)")
@@ -31,12 +31,12 @@ def add_place(parser: argparse.ArgumentParser, frame: bool = True) -> None:
 
 @contextmanager
 def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[None]:
-    """Within, the context is where the options say; a frame and a camera that they name stay set.
+    """Set the context in the block to the place in the options. A frame and a camera stay set afterwards.
 
     Raises
     ------
     ReflectionError
-        Where there is no such scene, view layer or camera.
+        If there is no such scene, view layer or camera.
     """
     scene = named(bpy.data.scenes, options.scene, "scene", "the file") if options.scene else context.scene
     layer = _layer(context, scene, options.view_layer if isinstance(options.view_layer, str) else None)
@@ -52,15 +52,16 @@ def placed(context: bpy.types.Context, options: argparse.Namespace) -> Iterator[
 
 
 def forget_chance(context: bpy.types.Context) -> None:
-    """Let go of a selection that chooses no mirror: what was clicked last before the file was saved is not meant, and
-    without it the materials say which objects are mirrors."""
+    """Deselect everything if the selection contains no mirror. It may be left from the last click before saving.
+    Without it, materials determine the mirrors.
+    """
     if not candidates(context)[0]:
         for obj in context.selected_objects:
             obj.select_set(False)
 
 
 def camera_of(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
-    """A scene's camera by its name."""
+    """Return a scene's camera by its name."""
     found = named(scene.objects, name, "camera", f"the scene '{scene.name}'")
     if found.type != "CAMERA":
         raise ReflectionError(f"'{name}' is no camera: name one with --camera.")
@@ -68,12 +69,12 @@ def camera_of(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
 
 
 def layer_of(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
-    """A scene's view layer by its name."""
+    """Return a scene's view layer by its name."""
     return named(scene.view_layers, name, "view layer", f"the scene '{scene.name}'")
 
 
 def named(items, name: str, what: str, where: str):
-    """One of Blender's items by its name."""
+    """Return one of Blender's items by its name."""
     if name not in items:
         raise ReflectionError(f"There is no {what} '{name}' in {where}: check its name.")
     return items[name]

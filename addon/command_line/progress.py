@@ -1,16 +1,16 @@
-"""How the command line tells how far it is: in words, or in the lines that a render farm's worker reads."""
+"""Print the progress of a command, in words or in the lines that a render farm's worker parses."""
 from __future__ import annotations
 
 from ..faults import Steps, finished
 
 
 def announced(steps: Steps, farm: str = "") -> object:
-    """Run steps to their end, printing each stage once; returns what they return.
+    """Run steps to their end and print each stage once. Return their result.
 
     Parameters
     ----------
     farm : str
-        "OPENJD" prints as Open Job Description has it, "How Jobs Are Run", Stdout/Stderr Messages.
+        "OPENJD" prints lines for Open Job Description ("How Jobs Are Run", Stdout/Stderr Messages).
     """
     told = ""
 

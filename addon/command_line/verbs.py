@@ -203,7 +203,9 @@ def _lit(context: bpy.types.Context, results: list, samples: int | None) -> str:
 
 
 def _path_to_save(options: argparse.Namespace) -> str:
-    """Where the file is to be saved, which can be written and is no picture or page that was named by mistake."""
+    """Return the path for saving the file. Check that it is writable and ends with .blend, not e.g. as a picture or a
+    page.
+    """
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
     path = os.path.abspath(options.output or bpy.data.filepath)
@@ -214,7 +216,7 @@ def _path_to_save(options: argparse.Namespace) -> str:
 
 
 def _chosen(context: bpy.types.Context, options: argparse.Namespace, unmirrored: bool = False) -> Participants:
-    """The objects named, or those that the selection and the roles choose, `unmirrored` as `choose` has it."""
+    """Return the objects named in the options, or those chosen by selection and roles; `unmirrored` as in `choose`."""
     if not (options.mirror or options.diffuse):
         return choose(context, unmirrored=unmirrored)
     if not options.mirror:

@@ -16,7 +16,7 @@ from ..metrics import Measurement
 from ..report import Picture, heat_map, png_bytes
 from .pictures import Pictures
 
-# what a pixel of holes.png is, and its colour: of M. Okabe and K. Ito's set, safe for all kinds of colour vision
+# kinds of pixels in holes.png, and their colours: the set of M. Okabe and K. Ito, safe for colour-blind readers
 KINDS = {"no mirror": (20, 20, 20), "left out": (62, 62, 68), "right": (130, 130, 130), "hole": (213, 94, 0),
          "spill": (0, 114, 178), "wrong layer": (240, 228, 66)}
 DRAWING = "Drawing error maps"
@@ -26,14 +26,14 @@ DIFFERENCE, DISPLACEMENT = (0.001, 1.0), (0.01, 10.0)       # ends of the scales
 
 def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
                         measurement: Measurement) -> Steps[tuple[Picture, ...]]:
-    """Write five PNG files into the folder, in steps; returns them as they are shown in a page.
+    """Write five PNG files into the folder, in steps. Return them as pictures for a page.
 
     Parameters
     ----------
     folder : str
-        A folder for results that are not whole yet, as `files.staged` gives it.
+        A temporary folder from `files.staged`.
     scene : bpy.types.Scene
-        A temporary scene whose view settings are those of the user; its image settings are changed.
+        A temporary scene with the user's view settings. Its image settings are changed.
     """
     yield 0.0, DRAWING
     difference = np.abs(pictures.reference.astype(np.float64) - pictures.result).mean(axis=2)
@@ -69,14 +69,15 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
 
 
 def _maps(difference: np.ndarray, displacement: np.ndarray, coverage: np.ndarray) -> dict:
-    """PNG files by name."""
+    """Return PNG files by name."""
     return {"difference": heat_map(difference, *DIFFERENCE),
             "displacement": heat_map(displacement, *DISPLACEMENT, unit="px"),
             "holes": png_bytes(coverage[::-1], np.array(list(KINDS.values())))}
 
 
 def surroundings(mirror: np.ndarray) -> tuple[slice, slice]:
-    """The box of the mirror's pixels with a margin of a twentieth; the whole picture where there are none."""
+    """Return the bounding box of the mirror's pixels with a margin of a twentieth; the whole picture if there are none.
+    """
     if not mirror.any():
         return slice(None), slice(None)
     box = []
@@ -88,7 +89,9 @@ def surroundings(mirror: np.ndarray) -> tuple[slice, slice]:
 
 
 def coverage_picture(measurement: Measurement) -> np.ndarray:
-    """(height, width) uint8 entries of `KINDS`; wrong pixels are drawn larger where the picture is large."""
+    """Return the kinds of pixels as indices into `KINDS`, (height, width) uint8. Wrong pixels are enlarged in large
+    pictures.
+    """
     names, mirror = list(KINDS), measurement.mirror
     picture = np.full(mirror.shape, names.index("no mirror"), dtype=np.uint8)
     picture[mirror] = names.index("left out")
@@ -101,7 +104,7 @@ def coverage_picture(measurement: Measurement) -> np.ndarray:
 
 
 def enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
-    """Every pixel within `reach` rows and columns of one of the mask."""
+    """Return a mask of all pixels within `reach` rows and columns of a pixel of `mask`."""
     for axis in (0, 1):
         pad = [(0, 0), (0, 0)]
         pad[axis] = (reach, reach)
@@ -111,7 +114,7 @@ def enlarged(mask: np.ndarray, reach: int) -> np.ndarray:
 
 
 def save_picture(path: str, scene: bpy.types.Scene, linear: np.ndarray, kind: str) -> None:
-    """Write a linear picture as the scene's view settings show it."""
+    """Write a linear picture with the scene's view settings."""
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.quality = kind, "RGB", 92
     if kind == "PNG":

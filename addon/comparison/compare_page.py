@@ -19,12 +19,12 @@ NOTES = (
 
 
 def scene_of(name: str, report: dict, pictures: tuple[Picture, ...]) -> Scene:
-    """A comparison's report and pictures as a part of a page."""
+    """Return a comparison's report and pictures as a section of a page."""
     return Scene(name, summary(report), facts(report), pictures)
 
 
 def summary(report: dict) -> tuple[str, ...]:
-    """The answer first, then what stands behind it."""
+    """Return the summary in sentences, the main result first."""
     if not report["judged_pixels"]:
         return ("The camera sees no mirror whose reflection could be judged.",)
     displacement, coverage = report["displacement_px"], report["coverage_percent"]
@@ -53,7 +53,7 @@ def summary(report: dict) -> tuple[str, ...]:
 
 
 def facts(report: dict) -> dict:
-    """Numbers by label."""
+    """Return numbers by label."""
     shown = {"objects": f"{', '.join(report['mirrors'])} reflect {', '.join(report['diffuse'])}",
              "displacement (px): median, 95 %, 99 %, largest": _distribution(report["displacement_px"])}
     exact = report.get("without_packed_normals")
@@ -77,7 +77,7 @@ def facts(report: dict) -> dict:
 
 
 def environment(report: dict) -> dict:
-    """Where and how it was measured."""
+    """Return the conditions of the measurement by label."""
     width, height = report["resolution"]
     samples = report["picture"]["samples"]
     return {"Blender": report["blender"], "resolution": f"{width} x {height}",

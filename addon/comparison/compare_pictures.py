@@ -28,7 +28,7 @@ from ..writing import records
 from .pictures import Pictures, render_lit, render_pictures
 
 DEEPEST = 1000  # bounces that are followed; Cycles knows 1024, four of them for other rays
-RENDERS = 7  # of a comparison; where Cycles rounds normals it takes two more
+RENDERS = 7  # renders of a comparison; two more where Cycles rounds normals
 
 
 class Renders(NamedTuple):
@@ -75,7 +75,7 @@ def render_comparison(context: bpy.types.Context, copied: CopiedScene, diffuse: 
 
 def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, results: list,
              samples: int) -> Generator[str | None, None, Renders]:
-    """As `render_comparison`; yields as `render_pictures`."""
+    """Do the renders of `render_comparison`; yield like `render_pictures`."""
     depth = min(max((records.counts(result).get("depth", 1) for result in results), default=1) or 1, DEEPEST)
     cycles_render.prepare(copied.scene, depth)
     _code_results(copied, results, diffuse, polygons(context, diffuse))
@@ -91,12 +91,12 @@ def _renders(context: bpy.types.Context, copied: CopiedScene, diffuse: list, res
 
 
 def lit(results: list) -> bool:
-    """Whether some of the results show light, so that it can be compared with the mirror's own."""
+    """Return True if some results show light, so that it can be compared with the light in the mirror."""
     return any(result.reflection_mesh.light_material is not None for result in results)
 
 
 def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: list) -> None:
-    """Give each face of the copied results its code: diffuse object and polygon, as the truth is coded."""
+    """Give each face of the copied results its code: diffuse object and polygon, like the codes of the ground truth."""
     number = {obj: index for index, obj in enumerate(diffuse)}
     for copy, index in copied.results:
         mesh, sources = copy.data, [item.object for item in results[index].reflection_mesh.sources]
@@ -116,7 +116,7 @@ def _code_results(copied: CopiedScene, results: list, diffuse: list, polygons: l
 
 
 def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> np.ndarray:
-    """An attribute of a result's faces, which whoever works on the mesh may have lost."""
+    """Return a face attribute of a result's mesh. Edits of the mesh may have removed it."""
     attribute = mesh.attributes.get(name)
     if attribute is None or (attribute.data_type, attribute.domain) != ("INT", "FACE"):
         raise ReflectionError(f"The faces of '{result.name}' do not know what they show: generate it again, with all "
@@ -127,7 +127,7 @@ def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> 
 
 
 def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> Generator[str | None, None, tuple]:
-    """The first five of `Renders`."""
+    """Return the first five fields of `Renders`."""
     truth = CodedTruth(copied, codes, depth)
     yield "the outline of the mirror"
     seen, bent = yield from truth.mirror()

@@ -1,4 +1,4 @@
-"""What a comparison leaves in its folder: pictures, numbers, and a page that reads them."""
+"""Write the report of a comparison into its folder: pictures, numbers, and a page that shows them."""
 from __future__ import annotations
 
 import json

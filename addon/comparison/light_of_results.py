@@ -16,7 +16,7 @@ from ..illumination import Eye, MirrorColours, eyes_of, receiving
 from ..metrics import Squares, added, light_errors, light_in_squares
 from ..reading import DiffuseScene, read_mirror, read_scene
 
-THROWS = 4  # of rays at least, whose differences tell their noise
+THROWS = 4  # least number of ray casts, whose differences show their noise
 RAYS_AT_ONCE = 2_000_000
 
 
@@ -46,7 +46,7 @@ class Lit:
 
     @classmethod
     def of(cls, result: bpy.types.Object) -> Lit | None:
-        """None where whoever worked on the mesh has lost what it knows."""
+        """Read the faces of a result. Return None if edits of the mesh have removed its attributes."""
         mesh = result.data
         kinds = {"irradiance": ("FLOAT", "CORNER"), "image_parity": ("INT", "POINT"), "source_object": ("INT", "FACE"),
                  "source_face": ("INT", "FACE"), "bounces": ("INT", "FACE")}
@@ -71,17 +71,18 @@ class Lit:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What the light of one result meets, in world space.
+    """The surroundings that the light of one result meets, in world space.
 
     Attributes
     ----------
     surfaces : list of core.TriangleMesh
         The mirrors, that of the result first.
     colours : MirrorColours
-        Of all triangles of the surfaces, one behind another.
+        Colours of all triangles of the surfaces, one after another.
     scene : DiffuseScene
-        What may be lit.
+        Receivers.
     blockers : core.TriangleMesh or None
+        Occluders.
     """
 
     surfaces: list
@@ -97,20 +98,22 @@ class Surroundings:
                    read_scene(depsgraph, sources, unmirrored=True), blockers)
 
     def rays(self, ends: TriangleMesh, tracer: Callable = by_boxes, body: TriangleMesh | None = None) -> LightRays:
-        """The rays of one of the lamp's places, which end on a mesh; a lamp that is one may hide with its `body`."""
+        """Return the rays of one point on the lamp, which end on a mesh. A mesh lamp may occlude them with its `body`.
+        """
         others, blockers = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None])
                             for meshes in (self.surfaces[1:], (self.blockers, body)))
         return LightRays(self.surfaces[0], ends, others if len(others.triangles) else None,
                          blockers if len(blockers.triangles) else None, tracer)
 
     def watts(self, eye: Eye, landed: Landed) -> np.ndarray:
-        """What each ray (n,) of one of the lamp's places brings, the mean of its colours."""
+        """Return the power of each ray (n,) of one point on the lamp in watts, as the mean of its colours."""
         left = self.colours.left(np.stack(landed.met, axis=1), np.stack(landed.cosine, axis=1))
         return (eye.power * (landed.flux * eye.share(landed.start))[:, None] * left).mean(axis=1)
 
     def on_surfaces(self, lit: Lit) -> tuple[np.ndarray, np.ndarray]:
-        """The corners (m, 3, 3) of faces brought back to the surfaces before which they lie, and the normals (m, 3) of
-        these; where they have gone since, as if they faced upwards."""
+        """Return the corners (m, 3, 3) of faces projected back to their receivers, and the receivers' normals (m, 3).
+        Receivers that have moved since get an upward normal.
+        """
         scene = self.scene
         key, asked = (one.astype(np.int64) * (1 << 32) + face for one, face in (
             (scene.source_object, scene.source_face), (lit.source_object, lit.source_face)))
@@ -128,8 +131,9 @@ class Surroundings:
 
 def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: Lit, around: Surroundings,
                  count: int, tracer: Callable = by_boxes) -> Steps[dict]:
-    """As `light_errors`, of one result and about `count` rays by a tracer as `LightRays` takes them; yields (fraction,
-    "")."""
+    """Return `light_errors` of one result, compared with about `count` rays traced by `tracer` (see `LightRays`);
+    yields (fraction, "").
+    """
     squares, light = yield from part(in_steps(partial(_in_squares, lit, around)), 0.0, 0.0)
     surface = around.surfaces[0]
     eyes = eyes_of(depsgraph, result.reflection_mesh.lamp, places_of(result),
@@ -160,12 +164,12 @@ def against_rays(depsgraph: bpy.types.Depsgraph, result: bpy.types.Object, lit: 
 
 
 def _in_squares(lit: Lit, around: Surroundings) -> tuple[Squares, tuple]:
-    """Squares round the faces of a result, and the light of the faces in them."""
+    """Return squares around the faces of a result, and the light of the faces in them."""
     corners, facing = around.on_surfaces(lit)
     squares = Squares(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
     return squares, light_in_squares(corners, lit.irradiance, facing, squares)
 
 
 def places_of(result: bpy.types.Object) -> int:
-    """On how many places of its lamp the light of a result comes from."""
+    """Return the number of points on the lamp of a result's light."""
     return max(result.reflection_mesh.eyes, 1)

@@ -1,4 +1,4 @@
-"""What a comparison of caustics leaves in its folder: pictures, numbers, and a page that reads them."""
+"""Write the report of a comparison of caustics into its folder: pictures, numbers, and a page that shows them."""
 from __future__ import annotations
 
 import json
@@ -35,12 +35,12 @@ NOTES = (
 
 
 def light_scene(report: dict, pictures: tuple, runs: tuple) -> Scene:
-    """A comparison's report, pictures and runs as a part of a page."""
+    """Return a comparison's report, pictures and runs as a section of a page."""
     return Scene(", ".join(report["results"]), summary(report), facts(report), pictures, runs)
 
 
 def summary(report: dict) -> tuple[str, ...]:
-    """The answer first, then what stands behind it."""
+    """Return the summary in sentences, the main result first."""
     runs = report["runs"]
     mesh = [run for run in runs if run["method"] == MESH][-1]
     own = [run for run in runs if run["method"] == OWN][-1]
@@ -69,7 +69,7 @@ def summary(report: dict) -> tuple[str, ...]:
 
 
 def facts(report: dict) -> dict:
-    """Numbers by label."""
+    """Return numbers by label."""
     shown = {"objects": f"{', '.join(report['mirrors'])} and {', '.join(report['lamps'])} light "
                         f"{', '.join(report['receivers'])}",
              "pixels in which something may be lit": report["receiver_pixels"]}
@@ -81,7 +81,7 @@ def facts(report: dict) -> dict:
 
 
 def runs_of(pictures: LightPictures, errors: list, generate: float) -> tuple:
-    """A `Run` of each shot, Cycles' own first, with its (errors, noise)."""
+    """Return a `Run` for each shot with its (errors, noise), Cycles' own shots first."""
     shots = [(OWN, shot) for shot in pictures.own] + [(MESH, shot) for shot in pictures.mesh]
     runs = []
     for (method, shot), (found, noise) in zip(shots, errors):
@@ -136,14 +136,14 @@ def write_light_report(folder: str, scene: bpy.types.Scene, pictures: LightPictu
 
 
 def environment(report: dict) -> dict:
-    """Where and how it was measured."""
+    """Return the conditions of the measurement by label."""
     width, height = report["resolution"]
     return {"Blender": report["blender"], "resolution": f"{width} x {height}",
             "samples per pixel of the reference": report["reference"]["samples"], "rays": report["rays"]}
 
 
 def _as_long(pictures: LightPictures) -> Shot:
-    """Cycles' own picture that took the time nearest to that of the last with the meshes."""
+    """Return Cycles' own picture whose render time is nearest to that of the last one with the meshes."""
     return min(pictures.own, key=lambda shot: abs(shot.seconds - pictures.mesh[-1].seconds))
 
 

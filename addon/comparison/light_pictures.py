@@ -29,19 +29,19 @@ class Shot:
 
 @dataclass(frozen=True)
 class LightPictures:
-    """What Cycles shows of caustics.
+    """Cycles' renders of caustics.
 
     Attributes
     ----------
     reference : (height, width, 3) float64
-        Its own, converged as far as `samples` say.
+        Cycles' own caustics, converged with `samples` samples.
     variance : (height, width) float64
-        Of the reference's mean over the colours.
+        Variance of the reference's mean over the colours.
     samples : int
     seconds : float
-        That the reference took.
+        Render time of the reference.
     own, mesh : list of Shot
-        Its own caustics, and the meshes of light, from few samples to many.
+        Cycles' own caustics, and the meshes, with few to many samples.
     """
 
     reference: np.ndarray
@@ -81,7 +81,7 @@ def render_light(context: bpy.types.Context, results: list, counts: tuple, conve
                 first = yield from shots.taken(samples, 1, f"Cycles caustics at {samples} samples")
                 other = yield from shots.taken(samples, 2, f"Cycles caustics at {samples} samples once more")
                 own.append(Shot(samples, first.picture, 0.5 * (first.seconds + other.seconds), other.picture))
-        # where the file has both, the mesh would be judged with light that is there twice
+        # avoid both at once if the file has both: the light would be counted twice
         scene.cycles.caustics_reflective = with_own and own_too
         mesh = []
         for samples in counts:
@@ -93,7 +93,7 @@ def render_light(context: bpy.types.Context, results: list, counts: tuple, conve
 
 
 class _Shots:
-    """Renders of one scene, one after another, of `count` in all."""
+    """A series of renders of one scene, `count` in all."""
 
     def __init__(self, scene: bpy.types.Scene, seed: int, count: int) -> None:
         self.scene, self.seed, self.count, self.number = scene, seed, count, 0
@@ -112,13 +112,13 @@ def _pair(result: bpy.types.Object) -> tuple[bpy.types.Object, bpy.types.Object]
 
 
 def _chunks(samples: int) -> list[int]:
-    """Samples of the renders that make the reference: eight at least, which tell its noise."""
+    """Return the samples of each render of the reference. There are at least eight renders, which show its noise."""
     number = max(8, -(-samples // CHUNK))
     return [max(samples // number + (index < samples % number), 1) for index in range(number)]
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
-    """Path tracing alone, in the whole picture."""
+    """Set the scene up for path tracing only, of the whole picture."""
     render, cycles = scene.render, scene.cycles
     only_the_picture(render)
     render.use_border = render.use_persistent_data = False

@@ -18,16 +18,16 @@ NAME = "Reflection Comparison"
 
 @dataclass(frozen=True)
 class Pictures:
-    """What Cycles shows of a scene.
+    """Cycles' renders of a scene.
 
     Attributes
     ----------
     reference, result : (height, width, 3) float32
-        With the mirror, and with the mesh before it; in linear light, from the lowest row up.
+        With the mirror, and with the mesh in front of it; linear light, rows from bottom to top.
     seconds : dict
-        Time that Cycles took for the two, by their names.
+        Render times of the two, by their names.
     again : (height, width, 3) float32 or None
-        Where the mesh shows light: `reference` with other noise, which is as near as a picture can come.
+        `reference` with another random seed, the smallest difference that is possible; if the mesh shows light.
     """
 
     reference: np.ndarray
@@ -86,7 +86,7 @@ def render_lit(context: bpy.types.Context, results: list, samples: int) -> Gener
 
 
 def _timed(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene) -> Renders[tuple[np.ndarray, float]]:
-    """A picture, and the seconds that it took."""
+    """Return a picture and its render time in seconds."""
     started = time.perf_counter()
     picture = yield from render_picture(scene, samples, user)
     return picture, time.perf_counter() - started

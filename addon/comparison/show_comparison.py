@@ -16,8 +16,9 @@ _pages: dict[tuple[int, str], str] = {}
 
 
 def load_pictures(folder: str, names: tuple[str, ...]) -> list[bpy.types.Image]:
-    """The folder's pictures of these names as images 'Reflection Comparison ...'; those of an earlier comparison are
-    loaded anew."""
+    """Return the folder's pictures of these names as images 'Reflection Comparison ...'. Those of an earlier comparison
+    are reloaded.
+    """
     images = []
     for name in names:
         title = name.replace("_", " ").title()
@@ -52,7 +53,7 @@ def remember(scene: bpy.types.Scene, report: dict, folder: str) -> None:
 
 
 def lines(scene: bpy.types.Scene) -> list[str]:
-    """The last comparison in a few short lines; none where nothing was compared."""
+    """Return the last comparison in a few short lines; empty if there was none."""
     text = scene.reflection_mesh.comparison
     known, light = records.comparison(text), records.light_comparison(text)
     if light is not None:

@@ -28,7 +28,7 @@ def starts_again() -> bool:
 def start_again(operator: bpy.types.Operator, context: bpy.types.Context) -> None:
     """Invoke the operator with its present properties soon; only the last of several calls counts."""
     properties = operator.properties
-    # what the last run showed of the file's settings was not asked for
+    # settings of the file that the last run displayed were not set by the user
     shown = getattr(operator, "used", {})
     given = {name: getattr(properties, name) for name in properties.bl_rna.properties.keys()
              if name != "rna_type" and properties.is_property_set(name)
@@ -40,7 +40,7 @@ def start_again(operator: bpy.types.Operator, context: bpy.types.Context) -> Non
 
 
 def _start() -> float | None:
-    """Invoke what waits, in its window; return when to look again."""
+    """Invoke the waiting operator in its window. Return the seconds until the next look."""
     name, label, given, pointer = _waiting[0]
     windows = bpy.context.window_manager.windows
     if any(len(window.modal_operators) for window in windows):
@@ -62,7 +62,7 @@ def _start() -> float | None:
 
 
 def _show(label: str, sentence: str) -> None:
-    """Show why nothing was started, as Blender shows errors."""
+    """Show why nothing was started, like Blender shows errors."""
     bpy.context.window_manager.popup_menu(
         lambda menu, _context: menu.layout.label(text=sentence, translate=False),
         title=pgettext_iface(label), icon="ERROR")

@@ -6,10 +6,10 @@ from contextlib import ExitStack
 
 
 class AllOrNothing:
-    """A block whose steps are taken back, the last one first, where it ends with an error of any kind.
+    """A block whose steps are undone in reverse order if it ends with any error.
 
-    Before each step the block says how it is taken back, by `undo`, and what is left to do once all steps have
-    succeeded, by `after`: what cannot be taken back, such as deleting what was replaced.
+    Before each step, the block registers its reversal with `undo`. With `after` it registers work for the time when all
+    steps have succeeded, such as deleting replaced data, which cannot be undone.
     """
 
     def __init__(self) -> None:

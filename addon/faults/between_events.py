@@ -5,12 +5,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 _are = False
-_works, _steps = [False], [0]  # whether an operator of the window is at work, and how many steps are being taken
+_works, _steps = [False], [0]  # True if an operator of the window is working; number of nested steps in progress
 
 
 def between_events() -> bool:
-    """Whether the step that is being taken is one of many between which Blender comes to its events: a render may go
-    on in a thread of its own, and who waits for it need not keep the window waiting."""
+    """Return True if the current step is one of many between which Blender handles events. Then a render may run in a
+    thread of its own, and waiting for it need not block the window.
+    """
     return _are
 
 
@@ -26,7 +27,7 @@ def works(goes_on: bool) -> None:
 
 @contextmanager
 def steps_taken(apart: bool) -> Iterator[None]:
-    """Within, steps are taken between events, or all at once."""
+    """Take steps inside the block between events (`apart`), or all at once."""
     global _are
     before, _are = _are, apart
     _steps[0] += 1

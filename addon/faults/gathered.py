@@ -9,7 +9,7 @@ import bpy
 
 NAMED = 3  # so many names are written out
 ALSO = "{} Also: {}."
-FRAMES = "In frame"  # how sentences on single frames begin
+FRAMES = "In frame"  # first words of sentences on single frames
 QUOTED = re.compile(r"('.+?')")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
@@ -41,14 +41,14 @@ def _without_a_name(sentence: str) -> Iterator[tuple[str, str]]:
         yield "".join(_without_numbers(rest)), head
     pieces = _without_numbers(sentence)
     if sentence.startswith(FRAMES):
-        # which frames it is about tells it apart
+        # the frames distinguish the sentence, so keep them
         pieces[0] = QUOTED.split(sentence)[0]
     for place in range(1, len(pieces), 2):
         yield "".join((*pieces[:place], "''", *pieces[place + 1:])), pieces[place][1:-1]
 
 
 def _without_numbers(text: str) -> list[str]:
-    """Return what is not quoted, without numbers, and what is, by turns."""
+    """Return alternately the unquoted parts without numbers, and the quoted parts."""
     return [piece if place % 2 else NUMBER.sub("", piece) for place, piece in enumerate(QUOTED.split(text))]
 
 

@@ -14,13 +14,14 @@ from contextlib import contextmanager
 
 import bpy
 
-STATUS = 130    # as shells have it: 128 and the signal's number
+STATUS = 130    # exit status of shells: 128 and the signal's number
 
 
 @contextmanager
 def interrupt_held() -> Iterator[list[int]]:
-    """Ctrl-C is heard: the list is no longer empty, and KeyboardInterrupt raised when the block is done; a second one
-    ends the process."""
+    """Catch Ctrl-C in the block: the list is then no longer empty, and KeyboardInterrupt is raised at the end of the
+    block. A second Ctrl-C ends the process.
+    """
     heard: list[int] = []
     # Blender itself has a program's path
     if (bpy.app.binary_path or os.name != "posix" or threading.current_thread() is not threading.main_thread()
@@ -47,7 +48,8 @@ def interrupt_held() -> Iterator[list[int]]:
 
 
 def _listen(reading: int) -> None:
-    """Runs beside Cycles, which lets other threads run: Python hears signals in its main thread only."""
+    """Listen in a thread beside Cycles, which lets other threads run. Python handles signals in its main thread only.
+    """
     count = 0
     while signals := os.read(reading, 16):
         count += signals.count(signal.SIGINT)

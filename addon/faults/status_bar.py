@@ -1,7 +1,7 @@
-"""How far the work is, in the status bar: a bar with per cent, what comes next, and the time that is left.
+"""Show progress in the status bar: a bar with per cent, the next stage, and the remaining time.
 
-Blender lets a function draw its status bar in place of its own (`WorkSpace.status_text_set`, from 2.83 on) and has bars
-for layouts from 4.0 on (`UILayout.progress`).
+Blender lets a function draw the status bar (`WorkSpace.status_text_set`, from 2.83 on) and has progress bars in layouts
+(`UILayout.progress`, from 4.0 on).
 """
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ class StatusBar:
         self.fraction, self.stage, self.stopping = 0.0, "", ""
 
     def told(self, fraction: float, stage: str, stopping: str) -> Callable:
-        """Take what is to be drawn, how far the work is, its stage, and how it is stopped; returns what draws it, which
-        Blender takes only as a plain function."""
+        """Store the fraction done, the stage, and the hint on how to stop. Return the function that draws them, a plain
+        function as Blender requires.
+        """
         self.fraction, self.stage, self.stopping = fraction, stage, stopping
         return lambda header, context: self._draw(header.layout)
 
@@ -43,7 +44,7 @@ class StatusBar:
 
 
 def time_left(passed: float, fraction: float) -> str:
-    """Words on the time that is left after some seconds; none while that is anybody's guess."""
+    """Return the remaining time in words, after `passed` seconds; "" while it cannot be estimated."""
     if fraction < EARLY or passed < SOON:
         return ""
     seconds = passed * (1.0 - fraction) / fraction

@@ -26,7 +26,7 @@ class SteppedOperator:
 
     # no annotation: Blender takes those of an operator for its properties
     _running = None
-    # what is said of what ESC leaves
+    # message on what ESC leaves behind
     unchanged = "nothing has changed"
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
@@ -93,21 +93,21 @@ class SteppedOperator:
 
     @property
     def _stands_alone(self) -> bool:
-        """Whether the step that comes next is to be shown before, or has nothing to do before the next event."""
+        """Return True if the next step is shown before it starts, or only waits for the next event."""
         return isinstance(self._progress[1], Undivided | Beside)
 
     @property
     def _undivided(self) -> bool:
-        """Whether the step that comes next cannot be divided."""
+        """Return True if the next step cannot be divided."""
         return isinstance(self._progress[1], Undivided)
 
     def _step_apart(self) -> set | None:
-        """One step, between events of the window."""
+        """Take one step between events of the window."""
         with steps_taken(apart=True):
             return self._step()
 
     def _step(self) -> set | None:
-        """One step: what the operator returns where that was the last, or None."""
+        """Take one step. Return the operator's result after the last step, else None."""
         try:
             self._progress = next(self._running)
         except StopIteration:
@@ -118,7 +118,7 @@ class SteppedOperator:
         return None
 
     def _show(self, context: bpy.types.Context) -> None:
-        """Show how far the work is and what comes next."""
+        """Show the progress and the next stage."""
         fraction, stage = self._progress
         stopping = pgettext_iface("ESC: Cancel After This Step" if self._undivided else "ESC: Cancel")
         context.window_manager.progress_update(100.0 * fraction)
@@ -134,7 +134,9 @@ class SteppedOperator:
 
 @contextmanager
 def _at_the_cursor(context: bpy.types.Context) -> Iterator[Callable[[float], None]]:
-    """Show how far the work of a script is where it keeps a window waiting; yields what is told that, from 0 to 1."""
+    """Show the progress of a script at the cursor while it blocks a window. Yield a function that takes the fraction, 0
+    to 1.
+    """
     if bpy.app.background or context.window is None:
         yield lambda fraction: None
         return
@@ -149,7 +151,7 @@ def _at_the_cursor(context: bpy.types.Context) -> Iterator[Callable[[float], Non
 class BrowsingOperator(SteppedOperator):
     """A stepped operator that in a window lets the user choose its `filepath` first."""
 
-    # whether the file browser is open, which calls `execute` with the answer
+    # True while the file browser is open, which calls `execute` with the answer
     _browsing = False
 
     def begin(self, context: bpy.types.Context) -> set:
@@ -166,6 +168,7 @@ class BrowsingOperator(SteppedOperator):
 
 
 def proposed(path: str) -> str:
-    """What a file browser begins with where an operator would write to `path`, which begins with "//": else Blender
-    proposes the open file's own name. Beside a file that was never saved there is no place, and the name is enough."""
+    """Return the initial path of a file browser for an operator that writes to `path`, which begins with "//". Without
+    it, Blender proposes the open file's name. For files that were never saved, it is the name only.
+    """
     return bpy.path.abspath(path) if bpy.data.filepath else bpy.path.basename(path)

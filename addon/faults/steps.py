@@ -12,22 +12,22 @@ Steps = Generator[tuple[float, str], None, Result]
 
 
 class Undivided(str):
-    """The stage of a step that cannot be divided, however long it takes: whoever shows stages shows it before."""
+    """Stage of a step that cannot be divided, however long it takes. It is displayed before the step starts."""
 
 
 class Beside(str):
-    """The stage of work that goes on beside: there is nothing to do but to look, now and then, whether it has ended."""
+    """Stage of background work. The caller only polls it."""
 
 
 def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
-    """The progress of a part of the work as progress of the whole; returns what `steps` returns.
+    """Yield the progress of a part of the work as progress of the whole. Return the result of `steps`.
 
     Parameters
     ----------
     start, share : float
-        Where the part begins in the whole, and how much of it it is.
+        Start of the part in the whole, and its share, both from 0 to 1.
     name : str
-        Stands before each stage, and for one without a name.
+        Prefix of each stage; replaces an empty stage.
     """
     try:
         while True:
@@ -36,13 +36,14 @@ def part(steps: Steps, start: float, share: float, name: str = "") -> Steps:
     except StopIteration as stop:
         return stop.value
     finally:
-        # where the whole is closed, the part cleans up before it
+        # let the part clean up before the whole when that is closed
         steps.close()
 
 
 def finished(steps: Generator, tell: Callable | None = None) -> object:
-    """Run steps to their end, telling what each of them yields; returns what they return. Ctrl-C ends them after a
-    step."""
+    """Run steps to their end and call `tell` with each yielded value. Return their result. Ctrl-C ends them after a
+    step.
+    """
     with interrupt_held() as heard, steps_taken(apart=False):
         try:
             while not heard:
@@ -52,5 +53,5 @@ def finished(steps: Generator, tell: Callable | None = None) -> object:
         except StopIteration as stop:
             return stop.value
         finally:
-            # what interrupts between two steps must not leave their work lying about
+            # clean up after an interrupt between two steps
             steps.close()

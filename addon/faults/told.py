@@ -1,7 +1,7 @@
-"""Sentences in the language of Blender's interface: what operators tell, with the names and numbers that are in it.
+"""Translate sentences of operators into the language of Blender's interface, with the names and numbers in them.
 
-A sentence is looked up by what stands between these (`{}` in their places), so that whoever says it says it in English,
-and needs not know of any language.
+A sentence is looked up by its text with `{}` in place of names and numbers. So callers write English sentences and need
+not know about translations.
 """
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _stages: list[tuple[re.Pattern, str]] = []
 
 
 def know_sentences(sentences: Iterable[str]) -> None:
-    """Look for these sentences, which translations are registered of, in what is told from now on."""
+    """Register translatable sentences, which are recognised from now on."""
     _known.clear()
     # first those that say most by themselves
     for sentence in sorted(sentences, key=lambda sentence: (sentence != ALSO, -len(FIELD.sub("", sentence)))):
@@ -39,7 +39,7 @@ def know_sentences(sentences: Iterable[str]) -> None:
 
 
 def one_or_more(count: int, one: str, many: str, **more) -> str:
-    """What is said of one thing, or else of `many`, in which `{count}` and the names of `more` are put in."""
+    """Return `one` for a count of one, else `many`, with `{count}` and the names in `more` filled in."""
     return (one if count == 1 else many).format(count=count, **more)
 
 
@@ -49,8 +49,9 @@ def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
 
 
 def tell_done(operator: bpy.types.Operator, done: list[str], remarks: list[str]) -> None:
-    """Report what was done, and then what is to be said against it, each kind once, what matters most last: that is
-    what the status bar shows, and the rest stands in the Info editor."""
+    """Report the results `done`, and then the `remarks`, each kind once. The most important one comes last, since the
+    status bar shows it. All of them are in the Info editor.
+    """
     for sentence in done:
         tell(operator, {"INFO"}, sentence)
     for remark in reversed(gathered(remarks)):
@@ -58,8 +59,9 @@ def tell_done(operator: bpy.types.Operator, done: list[str], remarks: list[str])
 
 
 def translated(sentence: str, depth: int = 0) -> str:
-    """A sentence in the language of the interface, where it is one of those that are known; sentences and parts of some
-    that stand in the places of its names are translated too."""
+    """Return a sentence in the interface's language if it is known, else unchanged. Sentences and phrases in place of
+    names are translated too.
+    """
     for pattern, english, names in _known if depth < DEEPEST else ():
         found = pattern.fullmatch(sentence)
         if found is None:
@@ -73,15 +75,16 @@ def translated(sentence: str, depth: int = 0) -> str:
 
 
 def know_stages(stages: Iterable[str]) -> None:
-    """Look for these stages of work, which translations are registered of, from now on; `{}` are names and numbers."""
+    """Register translatable names of stages, which are recognised from now on; `{}` are names and numbers."""
     _stages.clear()
     for stage in sorted(stages, key=lambda stage: -len(FIELD.sub("", stage))):
         _stages.append((re.compile("(.+?)".join(map(re.escape, stage.split("{}")))), stage))
 
 
 def translated_stage(stage: str) -> str:
-    """What comes next in some work, such as "Frame 2: Mirror: clipping", in the language of the interface; names stay
-    as they are."""
+    """Return the name of a stage, such as "Frame 2: Mirror: clipping", in the interface's language. Names stay
+    unchanged.
+    """
     return NEXT.join(map(_translated_part, stage.split(NEXT)))
 
 

@@ -39,7 +39,7 @@ def sentence(error: Exception, what: str, unchanged: str = "nothing has changed"
 
 
 def in_one_sentence(execute: Callable) -> Callable:
-    """An operator's `execute` that reports any error as one sentence, and is cancelled then."""
+    """Wrap an operator's `execute` so that any error is reported in one sentence and cancels the operator."""
     # Blender counts the arguments of what it calls
     @functools.wraps(execute)
     def guarded(self, context: bpy.types.Context) -> set:

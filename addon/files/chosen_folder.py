@@ -9,12 +9,12 @@ from ...core import ReflectionError
 
 
 def chosen_folder(path: str) -> str:
-    """The absolute path of the folder that is named, which may begin with "//", the open file's own.
+    """Return the absolute path of a folder. "//" at its beginning stands for the open file's folder.
 
     Raises
     ------
     ReflectionError
-        Where none is named, or the open file has no folder.
+        If no folder is named, or the open file has none.
     """
     if path.startswith("//") and not bpy.data.filepath:
         raise ReflectionError("The file has not been saved: save it, or choose an absolute folder.")

@@ -13,16 +13,16 @@ import numpy as np
 
 from ...core import breathe
 
-LINES = 16  # of a block that is packed as ZIP
+LINES = 16  # lines in a block compressed as ZIP
 AT_ONCE = 256  # lines that are looked at between two breaths
-LEVEL = 1  # of zlib: a higher one takes half as long again, and saves a twentieth
-# what a number of 16 bits holds, and the mean of light from which on its steps lie below those of the light
+LEVEL = 1  # compression level of zlib; a higher one takes half as long again and saves a twentieth
+# largest value of half precision, and mean light above which its steps are small enough
 LARGEST, LEAST_MEAN = 65504.0, 1e-3
-HALF, SINGLE = ("<f2", 1), ("<f4", 2)  # as NumPy and as OpenEXR call them
+HALF, SINGLE = ("<f2", 1), ("<f4", 2)  # dtype in NumPy and pixel type in OpenEXR
 
 
 def open_exr(texels: np.ndarray) -> bytes:
-    """Encode a picture of linear light, in half precision where that tells it to a fortieth of a per cent.
+    """Encode a picture of linear light, in half precision if its relative error is below a fortieth of a per cent.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def open_exr(texels: np.ndarray) -> bytes:
 
 
 def _is_told_by_half(light: np.ndarray) -> bool:
-    """Whether half precision holds all of a picture's light, and has steps that are small beside its mean."""
+    """Return True if half precision can represent the whole picture, with steps that are small relative to its mean."""
     largest, total = 0.0, 0.0
     for first in range(0, len(light), AT_ONCE):
         breathe()
@@ -60,7 +60,7 @@ def _attribute(name: str, kind: str, value: bytes) -> bytes:
 
 
 def _blocks(lines: np.ndarray, order: list[int], kind: str) -> Iterator[bytes]:
-    """The lines (height, width, channels) from the highest down, packed."""
+    """Yield the compressed blocks of the lines (height, width, channels), from top to bottom."""
     for first in range(0, len(lines), LINES):
         breathe()
         part = lines[first:first + LINES][..., order].transpose(0, 2, 1)
@@ -69,6 +69,6 @@ def _blocks(lines: np.ndarray, order: list[int], kind: str) -> Iterator[bytes]:
         apart = np.concatenate((plain[::2], plain[1::2]))
         apart[1:] = apart[1:] - apart[:-1] + np.uint8(128)
         packed = zlib.compress(apart.tobytes(), LEVEL)
-        # what packing would lengthen stands as it is
+        # blocks that do not get smaller are stored uncompressed
         packed = packed if len(packed) < len(plain) else plain.tobytes()
         yield struct.pack("<2i", first, len(packed)) + packed

@@ -13,12 +13,12 @@ from .whole import is_whole
 
 
 def check_place(path: str) -> None:
-    """Whether a file can be saved at the absolute `path`, as far as can be told before.
+    """Check that a file can be saved at the absolute `path`, as far as possible in advance.
 
     Raises
     ------
     ReflectionError
-        Where it cannot.
+        If it cannot.
     """
     folder = os.path.dirname(path)
     if os.path.isdir(path):
@@ -74,7 +74,7 @@ def _written(path: str) -> bool:
 
 
 def _put(temporary: str, path: str) -> None:
-    """Backups move on by one, as when Blender saves, and the new file takes its place."""
+    """Move the backups on by one, as Blender does, and put the new file in place."""
     backups = [f"{path}{number}" for number in range(1, bpy.context.preferences.filepaths.save_version + 1)]
     for newer, older in reversed(list(zip(backups, backups[1:], strict=False))):
         if os.path.lexists(newer):

@@ -18,18 +18,18 @@ NAME = re.compile(rf"reflection_mesh_{MACHINE}_(\d{{1,9}})_[a-z0-9_]{{8}}(\.blen
 
 
 def own_prefix() -> str:
-    """How the names of this process begin; eight letters or digits follow."""
+    """Return the prefix of this process's names; eight letters or digits follow."""
     return f"reflection_mesh_{MACHINE}_{os.getpid()}_"
 
 
 def temporary_blend(folder: str) -> str:
-    """The path of a .blend file in `folder` that is not there yet."""
+    """Return an unused path for a .blend file in `folder`."""
     return os.path.join(folder, f"{own_prefix()}{secrets.token_hex(4)}.blend")
 
 
 @contextmanager
 def scratch_folder(where: str | None = None) -> Iterator[str]:
-    """A folder in `where`, or in the system's place for temporary files, that is deleted in the end.
+    """Make a folder in `where`, or in the system's directory for temporary files, and delete it in the end.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def scratch_folder(where: str | None = None) -> Iterator[str]:
 
 
 def why_unwritable(folder: str) -> str:
-    """Why nothing can be written into a folder, in the system's words; empty where something can."""
+    """Return the system's reason why a folder is not writable; "" if it is."""
     try:
         os.rmdir(tempfile.mkdtemp(prefix=own_prefix(), dir=folder))
     except OSError as error:
@@ -61,7 +61,7 @@ def why_unwritable(folder: str) -> str:
 
 
 def scratch_place() -> str:
-    """The system's place for temporary files."""
+    """Return the system's directory for temporary files."""
     try:
         return tempfile.gettempdir()
     except OSError as error:
@@ -70,13 +70,13 @@ def scratch_place() -> str:
 
 
 def scratch_is_full() -> ReflectionError:
-    """What to say where a temporary file did not become what it should."""
+    """Return the error for a temporary file that was not written completely."""
     return ReflectionError(f"The scratch folder '{scratch_place()}' is full or cannot be written: make room in it, or "
                            "name another one with TMPDIR.")
 
 
 def has_room(folder: str, size: int) -> bool:
-    """Whether `size` bytes can be written into a folder."""
+    """Return True if `size` bytes can be written into a folder."""
     path = os.path.join(folder, "room")
     try:
         with open(path, "wb") as file:

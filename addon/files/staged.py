@@ -13,12 +13,13 @@ from .scratch import scratch_folder, why_unwritable
 
 
 def check_folder(folder: str) -> None:
-    """Whether files can be written into the absolute `folder`, or it can be made, as far as can be told before.
+    """Check that files can be written into the absolute `folder`, or that it can be made, as far as possible in
+    advance.
 
     Raises
     ------
     ReflectionError
-        Where they cannot.
+        If they cannot.
     """
     above = folder
     while not os.path.lexists(above):
@@ -32,7 +33,7 @@ def check_folder(folder: str) -> None:
 
 @contextmanager
 def staged(folder: str) -> Iterator[str]:
-    """A temporary folder to write into, whose files take their places in `folder` in the end, and then it is deleted.
+    """Yield a temporary folder to write into. At the end its files move to `folder`, and it is deleted.
 
     `folder` is made where it does not exist. After an error nothing in it has changed; one that was made is gone.
 
@@ -55,7 +56,7 @@ def staged(folder: str) -> Iterator[str]:
 
 
 def keep(path: str, spare: str) -> None:
-    """Give what lies at `path` a second name, so that it can be replaced; it is moved where there are no hard links."""
+    """Give the file at `path` a second name, so that it can be replaced. Move it where there are no hard links."""
     try:
         os.link(path, spare, follow_symlinks=False)
     except (OSError, NotImplementedError):
@@ -63,7 +64,7 @@ def keep(path: str, spare: str) -> None:
 
 
 def replaceable(path: str) -> bool:
-    """Whether nothing lies at `path`, or a file or a link, and no folder, device or pipe."""
+    """Return True if `path` is free, a file or a link, but not a folder, a device or a pipe."""
     return os.path.isfile(path) or os.path.islink(path) or not os.path.lexists(path)
 
 
@@ -81,7 +82,7 @@ def _make(folder: str, made: AllOrNothing) -> None:
 
 
 def _missing(folder: str) -> list[str]:
-    """The folders that are to be made for a path, from the top."""
+    """Return the folders that must be made for a path, from the top."""
     above = os.path.dirname(folder)
     if os.path.isdir(folder) or above == folder:
         return []
@@ -89,7 +90,7 @@ def _missing(folder: str) -> list[str]:
 
 
 def _forget(remove: Callable[[str], None], path: str) -> None:
-    """Remove what was made, where it has been; others may have put something into a folder."""
+    """Remove an item that was made, if possible. A folder into which others have put files stays."""
     with suppress(OSError):
         remove(path)
 
@@ -114,7 +115,7 @@ def _place(scratch: str, folder: str) -> None:
 
 
 def _make_folder(target: str, spare: str, whole: AllOrNothing) -> None:
-    """A folder at `target`, where there is none; a link goes to `spare` until `whole` is done."""
+    """Make a folder at `target` if there is none. A link there moves to `spare` until `whole` is done."""
     if os.path.islink(target):
         os.replace(target, spare)
         whole.undo(os.replace, spare, target)
@@ -130,7 +131,7 @@ def _make_folder(target: str, spare: str, whole: AllOrNothing) -> None:
 
 
 def _replace(new: str, target: str, spare: str, whole: AllOrNothing) -> None:
-    """`new` takes the place of `target`; the file or link that was there goes to `spare` until `whole` is done."""
+    """Replace `target` by `new`. The old file or link moves to `spare` until `whole` is done."""
     if not replaceable(target):
         raise FileExistsError(errno.EEXIST, "it is a folder or a device", target)
     # another process may remove it at any moment

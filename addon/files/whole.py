@@ -1,4 +1,4 @@
-"""Whether a file that Blender wrote is whole: of a full disk Blender mostly says nothing."""
+"""Check that a file written by Blender is complete. Blender mostly reports no error on a full disk."""
 from __future__ import annotations
 
 import os
@@ -7,14 +7,14 @@ from typing import BinaryIO
 
 import bpy
 
-# how a Zstandard file with a table for seeking ends, which is how Blender compresses
+# last bytes of a Zstandard file with a seek table, Blender's form of compression
 SEEKABLE_END = (0x8F92EAB1).to_bytes(4, "little")
 EXR_START = (20000630).to_bytes(4, "little")
 EXR_HEAD = 1 << 20  # bytes, more than the header of a render and the table of its chunks take
 
 
 def is_whole(path: str) -> bool:
-    """Whether the .blend, .exr, .usdc, .png or .jpg file at `path` is there and nothing is missing at its end."""
+    """Return True if the .blend, .exr, .usdc, .png or .jpg file at `path` exists and is complete to its end."""
     kind = os.path.splitext(path)[1]
     try:
         with open(path, "rb") as file:
@@ -30,14 +30,14 @@ def is_whole(path: str) -> bool:
 
 
 def _end(file: BinaryIO, length: int) -> bytes:
-    """The last bytes of a file, as many of `length` as there are."""
+    """Return the last `length` bytes of a file, or fewer if it is shorter."""
     file.seek(0, os.SEEK_END)
     file.seek(-min(length, file.tell()), os.SEEK_END)
     return file.read()
 
 
 def _whole_blend(file: BinaryIO) -> bool:
-    """Its last block is there, and Blender finds the block before it, without which no file is read."""
+    """Return True if the last block exists, and the block before it, without which Blender reads no file."""
     os.fsync(file.fileno())
     start = file.read(9)
     # the block that ends a file has grown with Blender 5.0, whose files have digits for the header's length
@@ -49,7 +49,7 @@ def _whole_blend(file: BinaryIO) -> bool:
 
 
 def _whole_exr(file: BinaryIO) -> bool:
-    """The table behind the header knows every chunk of lines, and the file ends where the last of them does.
+    """Return True if the table behind the header lists every chunk of lines, and the file ends with the last chunk.
 
     Blender 4.2 is not to be asked: it takes all memory over a picture whose end is missing.
     """
@@ -73,7 +73,7 @@ def _whole_exr(file: BinaryIO) -> bool:
 
 
 def _whole_usd(file: BinaryIO) -> bool:
-    """Its head, which is written last, knows where the table of contents lies that ends the file."""
+    """Return True if the head, which is written last, points to the table of contents at the end of the file."""
     start = file.read(24)
     if len(start) < 24 or not start.startswith(b"PXR-USDC"):
         return False

@@ -1,4 +1,4 @@
-"""Which sequence is shown where several cameras have one each, without this extension too."""
+"""Show the sequence of the active camera if several cameras have one each. It also works without this extension."""
 from __future__ import annotations
 
 import bpy
@@ -14,15 +14,16 @@ SWITCHES = ("hide_render", "hide_viewport")
 
 
 def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
-    """Of cameras' players (object, name of the camera) show those of the one that looks: the scene's, or the one that a
-    marker binds."""
+    """Show the `players` (object, name of the camera) of the active camera: the scene's camera, or the one that a
+    marker binds. Hide the others.
+    """
     bound = _cuts(scene)
     if not bound and len({name for _, name in players}) == 1:
         # a camera without results sees what is there
         scene.reflection_mesh.seen_by = None
         for obj, _ in players:
             if obj.hide_render and obj.hide_viewport:
-                # as beside what plays for every camera: shown again when its camera looks
+                # hidden completely, as if by another camera: shown again when its own camera is active
                 obj.reflection_mesh.aside = (True, True)
         show_for_camera(scene)
         return
@@ -38,8 +39,9 @@ def show_by_camera(scene: bpy.types.Scene, players: list) -> None:
 
 
 def make_way(context: bpy.types.Context, players: list, whole: AllOrNothing) -> list:
-    """Hide what plays for every camera where one of the cameras looks of the `players` (object, name of the camera) of
-    the same mirror, over which it would lie; returns what is hidden now or at some of the cuts."""
+    """Hide results for every camera while a camera of the `players` (object, name of the camera) of the same mirror is
+    active, since both would overlap. Return the objects that are hidden now or at some of the cuts.
+    """
     names = {name for _, name in players}
     mirrors = dict.fromkeys(obj.reflection_mesh.mirror for obj, _ in players)
     scene, bound = context.scene, _cuts(context.scene)
@@ -58,8 +60,9 @@ def make_way(context: bpy.types.Context, players: list, whole: AllOrNothing) -> 
 
 
 def show_always(context: bpy.types.Context, obj: bpy.types.Object, whole: AllOrNothing) -> list:
-    """Show a result that is right for every camera whichever looks, and hide its mirror's others, each for one camera,
-    which would lie over it; returns these."""
+    """Show a result for every camera all the time, and hide the mirror's results for single cameras, which would
+    overlap it. Return these.
+    """
     if obj.animation_data is not None and obj.animation_data.action is not None:
         whole.after(_forget_keys, obj)
     for switch in SWITCHES:
@@ -77,7 +80,7 @@ def show_always(context: bpy.types.Context, obj: bpy.types.Object, whole: AllOrN
 
 
 def _cuts(scene: bpy.types.Scene) -> dict:
-    """The cameras that markers bind, by their frames; Blender cuts to none that renders hide."""
+    """Return the cameras that markers bind, by frame. Blender ignores cameras that are hidden in renders."""
     return {marker.frame: marker.camera for marker in scene.timeline_markers
             if marker.camera and not marker.camera.hide_render}
 

@@ -1,4 +1,4 @@
-"""Which frames are meant, in the words of render farms: "1-24", "1-100:2", "3, 5-10, 47"."""
+"""Parse lists of frames in the notation of render farms: "1-24", "1-100:2", "3, 5-10, 47"."""
 from __future__ import annotations
 
 import re
@@ -10,17 +10,17 @@ MOST = 1_000_000    # Blender knows no more frames
 
 
 def frame_numbers(text: str) -> list[int]:
-    """The frames that a text names, in order, each once.
+    """Return the sorted distinct frames in a text.
 
     Parameters
     ----------
     text : str
-        Frames and ranges with commas between them; behind a range its step may stand, after ":" or "x".
+        Frames and ranges, separated by commas. A step may follow a range, after ":" or "x".
 
     Raises
     ------
     ReflectionError
-        Where it names anything else; files count frames from 0 on.
+        If the text has any other form. Frames in files are not negative.
     """
     found: set[int] = set()
     for part in text.split(","):
@@ -35,5 +35,5 @@ def frame_numbers(text: str) -> list[int]:
 
 
 def frame_text(start: int, end: int, step: int) -> str:
-    """The range of a scene in these words."""
+    """Return the range of a scene in this notation."""
     return f"{start}-{end}:{step}" if step > 1 else f"{start}-{end}"

@@ -1,4 +1,4 @@
-"""What belongs to a baked frame, as JSON beside its files: written last, so that a frame without it is not done."""
+"""The record of a baked frame, a JSON file beside its data. It is written last: a frame without it is incomplete."""
 from __future__ import annotations
 
 import hashlib
@@ -21,11 +21,11 @@ class ResultRecord:
     file : str
         Name of its USD file.
     attributes : tuple of (name, kind, domain)
-        What is packed into the file's colours, in this order.
+        Attributes that are packed into the file's colours, in this order.
     materials : tuple of (name, library)
-        What its faces show.
+        Materials of its faces.
     lit : bool
-        Whether it shows the frame's picture of light.
+        True if it shows the frame's image of light.
     """
 
     file: str
@@ -35,15 +35,16 @@ class ResultRecord:
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is nothing in it: else it has places on the mirror at the least."""
+        """True if the result is empty. Otherwise it has at least the positions on the mirror."""
         return not self.attributes
 
 
 @dataclass(frozen=True)
 class FrameRecord:
-    """One frame: what it was made with, its results by the names of their mirrors, its picture of light or "", what it
-    was made from, as freshness tells it, and how many faces of light lie over each other; empty and 0 in frames of
-    earlier versions."""
+    """The record of one frame: its settings, its results by the names of their mirrors, its image of light (or ""), its
+    inputs (see `freshness`), and the number of overlapping faces of caustics. The last two are empty and 0 in frames of
+    earlier versions.
+    """
 
     frame: int
     made_with: dict
@@ -58,7 +59,7 @@ class FrameRecord:
 
 
 def file_name(name: str, frame: int, ending: str) -> str:
-    """The name of a frame's file: as sequences are numbered, and with none but letters that every system takes."""
+    """Return the name of a frame's file, numbered as in image sequences, with characters that all systems accept."""
     clean = bpy.path.clean_name(name)
     if clean != name.replace(" ", "_"):
         # two names must not become one
@@ -67,8 +68,9 @@ def file_name(name: str, frame: int, ending: str) -> str:
 
 
 def told_apart(names: list[str]) -> dict[str, str]:
-    """What files that belong to each of some names are to be called: the names, but where two of them would be one in
-    files, in which spaces are no spaces and systems may not tell small letters from capital ones."""
+    """Return a name for use in files for each of `names`. It is the name itself unless two names would be equal in
+    files, which have no spaces and may ignore case.
+    """
     count = Counter(map(_in_files, names))
     return {name: _marked(name, name) if count[_in_files(name)] > 1 else name for name in names}
 
@@ -93,7 +95,7 @@ def write_record(path: str, record: FrameRecord) -> None:
 
 
 def read_record(path: str) -> FrameRecord | None:
-    """The record of a frame; None where there is none that can be believed."""
+    """Return the record of a frame; None if there is no valid one."""
     try:
         with open(path, encoding="utf-8") as file:
             known = json.loads(file.read(LONGEST))
@@ -111,7 +113,7 @@ def read_record(path: str) -> FrameRecord | None:
 
 
 def is_done(folder: str, record: FrameRecord | None) -> bool:
-    """Whether a frame has a record and all of its files."""
+    """Return True if a frame has a record and all of its files."""
     return record is not None and all(os.path.isfile(os.path.join(folder, name)) for name in record.files)
 
 

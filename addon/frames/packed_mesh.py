@@ -1,8 +1,8 @@
-"""What a mesh knows, packed into colours: those of sequences come back bit for bit in every Blender, other attributes
-do not, and names with blanks in none.
+"""Mesh attributes packed into colours. Only colours come back exactly from sequences in every Blender version. Other
+attributes do not, and names with spaces in no version.
 
-Each attribute has colours of its own, one for three numbers, whose names are worked out from its name alone: frames
-that know different things fit together.
+Each attribute has its own colours, one for three numbers. Their names depend on the attribute's name only, so that
+frames with different attributes can form a sequence.
 """
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ import zlib
 import bpy
 import numpy as np
 
-# how many numbers an attribute has, and how they are read
+# number of components and name of the value property, by attribute type
 WIDTHS = {"FLOAT": (1, "value"), "INT": (1, "value"), "BOOLEAN": (1, "value"), "INT8": (1, "value"),
           "FLOAT2": (2, "vector"), "FLOAT_VECTOR": (3, "vector"), "FLOAT_COLOR": (4, "color"),
           "BYTE_COLOR": (4, "color")}
 READ_AS = {"INT": np.int32, "INT8": np.int8, "BOOLEAN": np.bool_}
-# of the mesh itself
+# attributes of the mesh itself
 LEFT_OUT = {"position", "material_index"}
 MATERIAL = "corner_material"
 
 
 def packable(mesh: bpy.types.Mesh) -> list[tuple[str, str, str]]:
-    """The attributes (name, kind, domain) of a mesh that are packed."""
+    """Return the attributes (name, kind, domain) of a mesh that are packed."""
     return [(entry.name, entry.data_type, entry.domain) for entry in mesh.attributes
             if entry.data_type in WIDTHS and entry.domain in {"POINT", "EDGE", "FACE", "CORNER"}
             and not entry.name.startswith(".") and entry.name not in LEFT_OUT]
 
 
 def colour_names(name: str, kind: str, domain: str) -> list[str]:
-    """The colours that hold an attribute; those of faces, and of edges, lie at their corners, for want of others."""
+    """Return the names of the colours that hold an attribute. Attributes of faces and edges are stored at corners."""
     place = "point" if domain == "POINT" else "corner"
     key = zlib.crc32(f"{domain} {kind} {name}".encode())
     return [f"{place}_{key:08x}_{number}" for number in range((WIDTHS[kind][0] + 2) // 3)]
 
 
 def packed(mesh: bpy.types.Mesh, attributes: list, material: np.ndarray) -> dict[str, tuple[str, np.ndarray]]:
-    """The colours of a mesh as (domain, values (n, 4) float32), by name.
+    """Return the colours of a mesh as (domain, values (n, 4) float32), by name.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def packed(mesh: bpy.types.Mesh, attributes: list, material: np.ndarray) -> dict
         if domain == "FACE":
             values = np.repeat(values, sizes, axis=0)
         elif domain == "EDGE":
-            # of the edge that leads from a corner to the next one
+            # value of the edge from each corner to the next one
             edges = np.empty(len(mesh.loops), dtype=np.int32)
             mesh.loops.foreach_get("edge_index", edges)
             values = values[edges]

@@ -10,11 +10,11 @@ from .play import Player, material_of, show_frames
 
 def play_caustics(context: bpy.types.Context, player: Player, name: str, pair: tuple, sources: list,
                   whole: AllOrNothing) -> bpy.types.Object:
-    """Let the caustics of a mirror and a lamp, `pair`, play: those that there are, or new ones of that name.
+    """Make the caustics of `pair`, a mirror and a lamp, play: existing ones, or new ones called `name`.
 
-    The records tell of the receivers' materials; theirs, which add light, are made anew.
+    The records contain the receivers' materials. The materials that add light are made anew.
     """
-    # what is to be done at last is said first
+    # registered first, so that it runs last
     whole.after(forget_added_light, [material for obj in results_with(context, *pair)[:1]
                                      for material in obj.data.materials])
     obj = caustics_object(context, name, pair, sources, whole)

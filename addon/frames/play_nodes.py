@@ -62,7 +62,7 @@ class _Unpack:
         return node.outputs["Geometry"]
 
     def unlit_behind(self, geometry: bpy.types.NodeSocket, lit_by: str, count: int) -> bpy.types.NodeSocket:
-        """All faces of a frame without the colour `lit_by` show the slots that are `count` behind theirs."""
+        """In frames without the colour `lit_by`, add `count` to the material index of all faces."""
         lit = self.builder.read(lit_by, "FLOAT_COLOR").node.outputs["Exists"]
         unlit, further = (self.builder.add(kind, operation=operation) for kind, operation in (
             ("FunctionNodeBooleanMath", "NOT"), ("ShaderNodeMath", "ADD")))
@@ -82,7 +82,7 @@ class _Unpack:
         return node.outputs[0]
 
     def stored(self, geometry: bpy.types.NodeSocket, name: str, kind: str, domain: str) -> bpy.types.NodeSocket:
-        """An attribute under its own name."""
+        """Store an attribute under its own name."""
         numbers = [number for colour in colour_names(name, kind, domain) for number in self._numbers(colour)]
         if domain == "EDGE":
             numbers = list(map(self._at_first_corner, numbers))
@@ -99,7 +99,7 @@ class _Unpack:
         return list(node.outputs[:3])
 
     def _at_first_corner(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """What one of the corners that an edge leads from says; all of them say the same."""
+        """Return the value at one of the corners from which an edge starts. All of them have the same value."""
         corner = self.builder.add("GeometryNodeCornersOfEdge")
         there = self.builder.add("GeometryNodeFieldAtIndex", data_type="FLOAT", domain="CORNER")
         index = next(socket for socket in there.inputs if socket.name == "Index")
@@ -119,7 +119,7 @@ class _Unpack:
         return node.outputs[0]
 
     def _rounded(self, number: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """A whole number: the mean of three that are equal may lie beside it."""
+        """Round to an integer, since the mean of three equal numbers may be slightly off."""
         node = self.builder.add("FunctionNodeFloatToInt", rounding_mode="ROUND")
         self.builder.join(number, node.inputs[0])
         return node.outputs[0]

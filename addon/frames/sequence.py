@@ -21,13 +21,13 @@ class Sequence:
     records : list of FrameRecord
         In the order of their frames.
     name : str
-        What tells it from other sequences of the same mirrors; empty where there are none.
+        Name that distinguishes it from other sequences of the same mirrors; empty if there are none.
     placements : dict
-        Where each mirror's reflection lies, by the mirror's name.
+        Placement of each reflection, by the mirror's name.
     camera : str
-        The name of its camera; empty where it is right for every camera, as markers choose them.
+        Name of its camera; empty if it follows the active camera.
     stretch : float
-        How long a frame lasts on animation curves, where its scene stretches time.
+        Duration of a frame on animation curves, if the scene stretches time.
     """
 
     folder: str
@@ -39,22 +39,22 @@ class Sequence:
 
     @property
     def layers(self) -> int:
-        """How many faces of light lie over each other in any frame, whoever has made it."""
+        """Largest number of overlapping faces of caustics in any frame."""
         return max(record.layers for record in self.records)
 
     @property
     def empty(self) -> set[str]:
-        """Those of its results, as the records name them, that are empty in every frame."""
+        """Keys of the results that are empty in every frame."""
         return {key for key in self.records[0].results
                 if all(record.results[key].is_empty for record in self.records)}
 
     def times(self, values: dict) -> dict:
-        """Values by frames as values by where Blender looks for them on curves, rounded as it rounds."""
+        """Return values by frame as values by time on animation curves, rounded like Blender does."""
         return {float(np.float32(frame) * np.float32(self.stretch)): value for frame, value in values.items()}
 
 
 def keyed(data: bpy.types.ID, holder, name: str, values: dict) -> None:
-    """Keys of a value, by where they lie on its curve, that stays as it is until the next one."""
+    """Insert keys of a property, by time, with constant interpolation."""
     for time, value in values.items():
         setattr(holder, name, value)
         holder.keyframe_insert(name, frame=time)

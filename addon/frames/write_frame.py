@@ -15,16 +15,17 @@ from ..files import is_whole
 from .frame_records import ResultRecord
 from .packed_mesh import packable, packed
 
-# of the object and its mesh in every file; players look there
+# name of the object and its mesh in every file, where players look for them
 NAME = "reflection"
 OBJECT_PATH = f"/root/{NAME}"
 MESH_PATH = f"{OBJECT_PATH}/{NAME}"
-BITS = (12, 12, 8)      # of a material's number in each part of a colour: means of so small ones are exact
+BITS = (12, 12, 8)      # bits of a material's number in each part of a colour; means of such small numbers are exact
 
 
 def material_key(name: str, library: str) -> tuple[int, ...]:
-    """A number for a material in three parts, the same in whatever process and whatever else the file holds; zeros for
-    none."""
+    """Return a number for a material in three parts, which is the same in every process and file; zeros for no
+    material.
+    """
     number, parts = (max(zlib.crc32(f"{library}\n{name}".encode()), 1) if name else 0), []
     for bits in BITS:
         parts.append(number & ((1 << bits) - 1))
@@ -34,17 +35,17 @@ def material_key(name: str, library: str) -> tuple[int, ...]:
 
 def write_result(context: bpy.types.Context, result: bpy.types.Object | None, path: str, lit: bool,
                  materials: list | None = None) -> Steps[ResultRecord]:
-    """Write what a result shows, modifiers included, or nothing where there is none; a step before each part of that.
+    """Write a result with its modifiers, or an empty one if it is None, with a step before each part.
 
     Parameters
     ----------
     materials : list, optional
-        What is told of its materials instead of these.
+        Materials to record instead of those of the result.
 
     Raises
     ------
     ReflectionError
-        Where the file cannot be written whole.
+        If the file cannot be written completely.
     """
     shows, matrix = None, None
     if result is not None:
@@ -70,12 +71,12 @@ def write_result(context: bpy.types.Context, result: bpy.types.Object | None, pa
 
 
 def write_image(material: bpy.types.Material, path: str) -> None:
-    """The exact picture that a material of light shows.
+    """Write the image that a material of light shows, without loss.
 
     Raises
     ------
     ReflectionError
-        Where the file cannot be written whole.
+        If the file cannot be written completely.
     """
     shown = next(node.image for node in material.node_tree.nodes if node.type == "TEX_IMAGE")
     try:
@@ -88,8 +89,9 @@ def write_image(material: bpy.types.Material, path: str) -> None:
 
 @dataclass(frozen=True)
 class _Shown:
-    """A mesh as files hold it: positions (3 n,), corners (m,), where faces begin (k,), colours as `packed` gives them,
-    the attributes that these are of, and its materials (name, library)."""
+    """A mesh as in files: positions (3 n,), corners (m,), first corners of faces (k,), colours as from `packed`, the
+    packed attributes, and its materials (name, library).
+    """
 
     positions: np.ndarray
     corners: np.ndarray
@@ -100,7 +102,7 @@ class _Shown:
 
 
 def _read(shown: bpy.types.Mesh, slots) -> _Shown:
-    """An evaluated mesh, whose materials are `slots`."""
+    """Read an evaluated mesh with the material slots `slots`."""
     positions = np.empty(3 * len(shown.vertices), dtype=np.float32)
     corners = np.empty(len(shown.loops), dtype=np.int32)
     starts, index = (np.empty(len(shown.polygons), dtype=np.int32) for _ in range(2))
@@ -116,7 +118,7 @@ def _read(shown: bpy.types.Mesh, slots) -> _Shown:
 
 
 def _fill(mesh: bpy.types.Mesh, shown: _Shown) -> None:
-    """Positions, faces and packed colours."""
+    """Write positions, faces and packed colours."""
     mesh.vertices.add(len(shown.positions) // 3)
     mesh.vertices.foreach_set("co", shown.positions)
     mesh.loops.add(len(shown.corners))
@@ -129,12 +131,12 @@ def _fill(mesh: bpy.types.Mesh, shown: _Shown) -> None:
 
 
 def writes_usd() -> bool:
-    """Whether this Blender was built with USD; those of Linux distributions may not be."""
+    """Return True if this Blender was built with USD. Builds of Linux distributions may lack it."""
     return bool(bpy.app.build_options.usd)
 
 
 def _export(context: bpy.types.Context, mesh: bpy.types.Mesh, matrix, path: str) -> None:
-    """Write a mesh alone, from a scene of its own, whose objects have the names that players look for."""
+    """Export a mesh from a scene of its own, under the names that players look for."""
     scene = bpy.data.scenes.new("Reflection Frame")
     obj = bpy.data.objects.new(NAME, mesh)
     try:

@@ -1,4 +1,5 @@
-"""What a result was made from, and whether that has changed since: told in one sentence, and mended by Generate."""
+"""Track the inputs that a result was made from, and report in one sentence if they have changed. Generate updates it.
+"""
 from .digests import digest_of, register, unregister
 from .frame_origin import frame_difference, frame_origin
 from .lit_from import light_difference, lit_record, lit_with, why_light_differs

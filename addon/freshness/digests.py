@@ -16,11 +16,11 @@ from ..reading import drawn_meshes, is_rendered, rendered_in
 from ..registration import Handlers
 from .materials import forget_materials
 
-# how the values of an attribute are read: property, components, type
+# property, number of components and dtype to read an attribute, by its type
 LAYOUTS = {"FLOAT": ("value", 1, np.float32), "FLOAT_VECTOR": ("vector", 3, np.float32),
            "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
            "BYTE_COLOR": ("color", 4, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool)}
-CORNERS = ".corner_vert"  # of the hidden attributes the one that is shape; the others are selections
+CORNERS = ".corner_vert"  # the only hidden attribute that belongs to the shape; the others are selections
 VOLUME = ("filepath", "is_sequence", "frame_start", "frame_offset", "frame_duration", "sequence_mode")
 SIZE = 12  # bytes of a digest
 
@@ -30,7 +30,7 @@ _listeners: list[Callable[[list | None], None]] = [forget_materials]
 
 
 def tick() -> int:
-    """A number that is another one whenever anything may have changed."""
+    """Return a number that changes whenever anything may have changed."""
     return _ticks[0]
 
 
@@ -40,19 +40,22 @@ def listen(forget_them: Callable[[list | None], None]) -> None:
 
 
 def forget(session_uid: int | None = None) -> None:
-    """Hash the geometry of an object, or of all, anew when it is asked for next."""
+    """Hash the geometry of an object, or of all objects, again when it is needed next."""
     for key in [key for key in _geometry if session_uid is None or session_uid in key[:2]]:
         del _geometry[key]
 
 
 def digest_of(depsgraph: bpy.types.Depsgraph, objects: list) -> str:
-    """One digest of what `objects`, and what they instance, show and where; nothing that viewports hide takes part."""
+    """Return one digest of the shape and place of `objects` and of their instances. Objects hidden in viewports are
+    ignored.
+    """
     return _digest(depsgraph, {obj: index for index, obj in enumerate(objects)}, lambda instance: True)
 
 
 def digest_of_shown(depsgraph: bpy.types.Depsgraph, objects: list, unmirrored: bool = False) -> str:
-    """As `digest_of`, of what mirrors show of `objects`: nothing that renders hide, or that glossy rays do not meet;
-    that too, on which mirrors throw light, where `unmirrored` is said."""
+    """Return `digest_of` for the visible parts in mirrors: without objects that renders or glossy rays ignore. Include
+    those hidden from glossy rays if `unmirrored` is set; caustics need them.
+    """
     rendered = rendered_in(depsgraph.view_layer)
     owner_of = {obj: index for index, obj in enumerate(objects) if (unmirrored or obj.visible_glossy) and rendered(obj)}
     given: dict = {}
@@ -83,7 +86,7 @@ def geometry_of(evaluated: bpy.types.Object, parent: bpy.types.Object | None) ->
 
 
 def _hashed_other(data: bpy.types.ID | None) -> bytes:
-    """A digest of hair curves and points by their attributes, and of a volume by its file and its frame."""
+    """Return a digest of hair curves and points by their attributes, and of a volume by its file and its frame."""
     told = blake2b(digest_size=SIZE)
     for attribute in sorted(getattr(data, "attributes", ()), key=lambda attribute: attribute.name):
         if attribute.data_type in LAYOUTS:
@@ -95,7 +98,7 @@ def _hashed_other(data: bpy.types.ID | None) -> bytes:
 
 
 def _hashed(obj: bpy.types.Object) -> bytes:
-    """A digest of the shape and the layers of an evaluated object."""
+    """Return a digest of the shape and the layers of an evaluated object."""
     mesh, told = obj.data, blake2b(digest_size=SIZE)
     told.update(np.array((len(mesh.vertices), len(mesh.polygons)), dtype=np.int64).tobytes())
     told.update(_values(mesh.polygons, "loop_start", 1, np.int32))

@@ -1,4 +1,4 @@
-"""What a frame of an animation is made from, and whether another state of the scene would make it otherwise."""
+"""The inputs of a frame of an animation, compared with the present state of the scene."""
 from __future__ import annotations
 
 import bpy
@@ -11,8 +11,9 @@ LIGHT = ""  # no mirror is called so
 
 
 def frame_origin(context: bpy.types.Context, chosen: Participants | None, lit: bool) -> dict[str, str]:
-    """The records of what the open frame's results are made from, by the names of their mirrors; where the frame is
-    `lit`, a digest of its lamps as well."""
+    """Return the inputs of the open frame's results as text, by the names of their mirrors. If the frame is `lit`, add
+    a digest of its lamps.
+    """
     mirrors = [] if chosen is None else [one.among(chosen.mirrors) for one in chosen.assemblies or
                                          map(Assembly.of, chosen.mirrors)]
     # in an order that does not go by what is selected
@@ -24,7 +25,7 @@ def frame_origin(context: bpy.types.Context, chosen: Participants | None, lit: b
 
 
 def frame_difference(made: dict[str, str], now: dict[str, str]) -> str:
-    """What tells two of them apart, in a few words; empty where nothing does, or where nobody can tell."""
+    """Return the difference between two of these records in a few words; "" if there is none or it is unknown."""
     if not made:
         return ""
     if made.keys() != now.keys():

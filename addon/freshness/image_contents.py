@@ -34,7 +34,7 @@ def image_content(image: bpy.types.Image) -> bytes:
 
 
 def _paths(image: bpy.types.Image) -> Iterator[str]:
-    """The files of an image: each of its tiles."""
+    """Return the files of an image, one for each of its tiles."""
     path = bpy.path.abspath(image.filepath, library=image.library)
     for tile in image.tiles if image.source == "TILED" else [None]:
         if tile is not None:
@@ -45,7 +45,7 @@ def _paths(image: bpy.types.Image) -> Iterator[str]:
 
 
 def _ends(path: str) -> bytes:
-    """The size of a file, with its first and its last bytes."""
+    """Return the size of a file with its first and its last bytes."""
     try:
         with open(path, "rb") as file:
             size = file.seek(0, os.SEEK_END)

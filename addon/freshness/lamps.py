@@ -10,10 +10,10 @@ from ..illumination import is_glint
 from ..reading import rendered_in
 from .materials import SIZE, content_of_data, made_of
 
-# of a lamp and of a world, what their light depends on besides nodes
+# properties of lamps and worlds that their light depends on, besides nodes
 VALUES = ("type", "color", "energy", "exposure", "temperature", "use_temperature", "normalize", "shadow_soft_size",
           "use_soft_falloff", "spot_size", "spot_blend", "angle", "shape", "size", "size_y", "spread")
-# of those what counts besides in Cycles' renders
+# further properties that matter for Cycles' renders
 OF_LAMPS, OF_WORLDS = ("cast_shadow", "is_portal", "max_bounces", "is_caustics_light"), ("max_bounces",
                                                                                        "is_caustics_light")
 RAYS = ("camera", "diffuse", "glossy", "transmission", "scatter", "shadow")
@@ -34,7 +34,7 @@ def world_content(world: bpy.types.World | None) -> bytes:
 
 
 def lamps_of(context: bpy.types.Context) -> str:
-    """A digest of the lamps that a view layer's renders know, where they stand, and of the world."""
+    """Return a digest of the lamps in a view layer's renders with their transforms, and of the world."""
     lamps = [obj for obj in filter(rendered_in(context.view_layer), context.view_layer.objects)
              if obj.type == "LIGHT" and not is_glint(obj)]
     told = sorted(np.array(lamp.matrix_world, dtype=np.float32).tobytes() + _made_of(lamp.data) for lamp in lamps)

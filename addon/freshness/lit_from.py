@@ -30,7 +30,7 @@ CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_boun
           "sample_clamp_indirect", "pixel_filter_type", "filter_width", "use_fast_gi", "fast_gi_method",
           "ao_bounces_render", "volume_step_rate", "volume_max_steps", "volume_unbiased", "dicing_rate",
           "max_subdivisions", "use_light_linking", "texture_limit_render")
-FAST_GI = ("ao_factor", "distance")  # of the world's light_settings
+FAST_GI = ("ao_factor", "distance")  # properties of the world's light_settings
 
 
 def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.Object], settings: dict) -> dict:
@@ -77,9 +77,9 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
     """
     made, record = _read(result), result.reflection_mesh
     if not made:
-        # of earlier versions
+        # results of earlier versions have no record
         return DIFFERENT["view"]
-    # what is cheap comes first: while the camera is dragged nothing else is looked at
+    # compare the view first: it is cheap, and while the camera is dragged nothing else is compared
     if same_view:
         numbers = view_numbers(view)
         if numbers[32:] != made["view"][32:]:
@@ -100,12 +100,12 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
 
 def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
             mirrors: Iterable[bpy.types.Object]) -> dict:
-    """Digests of all that a result's light depends on but its view, by the names of `DIFFERENT`."""
+    """Return digests of all inputs of a result's light except its view, by the keys of `DIFFERENT`."""
     shown, own = rendered(context), {mirror.session_uid for mirror in mirrors_of(result)}
     moving = {mirror.session_uid for mirror in mirrors}
     part_of = [shown.objects.get(source.session_uid, b"") for source in sources if source is not None]
     others = [digest for uid, digest in shown.objects.items() if uid not in moving]
-    # what moves with the view may be another mirror of the same light
+    # objects that move with the view may be other mirrors of the same light
     mirror = [shown.objects.get(uid, b"") for uid in moving - own]
     materials = [shown.materials[uid] + (b"" if uid in moving else shown.objects[uid]) for uid in shown.materials]
     return {"sources": _digest(part_of),
@@ -115,7 +115,7 @@ def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
 
 
 def _settings(context: bpy.types.Context) -> str:
-    """A digest of the render settings on which light depends."""
+    """Return a digest of the render settings on which light depends."""
     scene = context.scene
     known = [[getattr(scene.render, name, None) for name in RENDER],
              [getattr(getattr(scene, "cycles", None), name, None) for name in CYCLES],

@@ -1,4 +1,4 @@
-"""The record of what a result was made from, and what has become of that."""
+"""Record the inputs of a result, and find the inputs that have changed since."""
 from __future__ import annotations
 
 import json
@@ -16,7 +16,7 @@ from . import digests
 from .answers import answer
 from .materials import colours_of, materials_of
 
-SAME = 1e-6  # of a matrix's largest number: what differs by less has been there and back
+SAME = 1e-6  # relative to the largest number of a matrix; tolerance for transforms that were changed and restored
 SIZE_DIFFERS = "the picture's size has changed"
 LONGEST = 20_000  # characters of a record; its own are below a thousand
 # the record of a result that was left before it was exact
@@ -24,9 +24,23 @@ COARSE = json.dumps({"coarse": True})
 
 
 class Origin(NamedTuple):
-    """What a result is made from: the numbers of the view, digests of the mirror, of the sources, of which materials
-    all of these show and of what the materials are made of (None where an earlier version did not tell), whether lines
-    are drawn, and whether the camera may look through a source that it does not see (or None)."""
+    """The inputs of a result.
+
+    Attributes
+    ----------
+    view : tuple of float
+        See `view_numbers`.
+    mirror, sources : str
+        Digests of the mirror and of the reflected objects.
+    materials : str or None
+        Digest of the names of their materials; None if an earlier version did not record it.
+    colours : str or None
+        Digest of the contents of the materials, or None.
+    lines : bool
+        True if Line Art or Freestyle draws lines.
+    through : bool or None
+        True if the camera may look through a source that is hidden from it; None if not recorded.
+    """
 
     view: tuple[float, ...]
     mirror: str
@@ -46,20 +60,20 @@ def origin_of(depsgraph: bpy.types.Depsgraph, view: View, mirrors: list, sources
 
 
 def record_of(origin: Origin, settings: dict) -> str:
-    """The text that a result keeps; `settings` are those that its file held for it."""
+    """Return the text that a result stores; `settings` are those that its file had for it."""
     return json.dumps({**origin._asdict(), "view": [float(f"{number:.8g}") for number in origin.view],
                        "settings": settings})
 
 
 def settings_of(scene: bpy.types.Scene, mirror: bpy.types.Object) -> dict:
-    """The settings that a scene holds for a mirror, and that its reflection depends on."""
+    """Return the scene's settings for a mirror that its reflection depends on."""
     wanted = Wanted(scene)
     # memory bounds the work, and seldom what comes of it
     return {name: wanted.value(mirror, name) for name in SETTINGS if name != "memory"}
 
 
 def same_view(one: tuple, other: tuple) -> bool:
-    """Whether two views show the same, but for rounding."""
+    """Return True if two views are equal except for rounding."""
     if len(one) != len(other) or one[32:] != other[32:]:
         return False
     return all(np.allclose(a, b, rtol=0.0, atol=SAME * max(np.abs(b).max(), 1e-300))
@@ -67,9 +81,9 @@ def same_view(one: tuple, other: tuple) -> bool:
 
 
 def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
-    """What has changed since a result was made, in a few words; empty where nothing has, or where nobody can tell.
+    """Return what has changed since a result was made, in a few words; "" if nothing has or it is unknown.
 
-    As cheap as a look: what it finds is kept until something changes again.
+    Cheap: the answer is cached until something changes again.
     """
     record = result.reflection_mesh
     if plays(result):
@@ -78,13 +92,13 @@ def why_stale(context: bpy.types.Context, result: bpy.types.Object) -> str:
         return "its mirror is gone, deleted or joined to another object: clear it"
     if not record.made_from:
         return ""
-    # settings are no change that Blender tells of
+    # Blender does not report changes of settings
     key = record.made_from, *settings_of(context.scene, record.mirror).values()
     return answer(_changed, context, result, key)
 
 
 def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
-    """What is no longer as it was when a result was made."""
+    """Return the first input of a result that has changed, in a few words."""
     record = result.reflection_mesh
     if record.made_from == COARSE:
         return "Live was stopped before it was exact"
@@ -97,7 +111,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
     try:
         now = origin_of(context.evaluated_depsgraph_get(), read_view(context), mirrors_of(result), sources)
     except ReflectionError:
-        # nothing can be made for it either, which whoever tries is told
+        # no new result is possible either; the user learns why on trying
         return "the camera has changed"
     origin, settings = made
     why = difference(origin, now)
@@ -110,7 +124,7 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 
 def difference(made: Origin, now: Origin) -> str:
-    """What tells two origins apart, but for colours, in a few words; empty where nothing does."""
+    """Return the first difference between two records, except for colours, in a few words; "" if there is none."""
     if made.view[32:] != now.view[32:]:
         return SIZE_DIFFERS
     if not same_view(made.view, now.view):
@@ -119,17 +133,17 @@ def difference(made: Origin, now: Origin) -> str:
         return "the mirror has changed"
     if made.sources != now.sources:
         return "a reflected object has changed"
-    # those that have other names and are made of the same are renamed ones
+    # materials with other names but equal contents were only renamed
     if made.materials not in (None, now.materials) and made.colours != now.colours:
         return "materials have been exchanged"
-    # of both the other way round there is nothing that anybody would see
+    # the opposite changes are invisible
     if now.through and made.through is False:
         return "the camera looks through a reflected object now"
     return "lines are drawn now" if now.lines and not made.lines else ""
 
 
 def read_record(text: str) -> tuple[Origin, dict] | None:
-    """The origin and the settings that `record_of` wrote; None where it wrote none."""
+    """Return the origin and the settings from a text of `record_of`; None for any other text."""
     if not text or len(text) > LONGEST:
         return None
     try:
@@ -143,5 +157,5 @@ def read_record(text: str) -> tuple[Origin, dict] | None:
 
 
 def view_numbers(view: View) -> tuple[float, ...]:
-    """What tells one view from another."""
+    """Return the numbers that identify a view: both matrices (16 each) and the resolution."""
     return (*view.camera_to_world.ravel().tolist(), *view.projection.ravel().tolist(), *map(float, view.resolution))

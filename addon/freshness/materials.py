@@ -17,7 +17,7 @@ from .image_contents import image_content
 SIZE = 12   # bytes of a digest
 DEEPEST = 4  # settings inside a node's settings: the points of a curve of a mapping
 KINDS = (bpy.types.Material, bpy.types.NodeTree, bpy.types.Image, bpy.types.Text)
-COLOURS = ("diffuse_color", "metallic", "roughness")  # of a material besides its nodes
+COLOURS = ("diffuse_color", "metallic", "roughness")  # properties of a material besides its nodes
 
 RENDERED = ("displacement_method", "use_transparent_shadow", "pass_index", "blend_method", "use_backface_culling")
 CYCLES = ("emission_sampling", "use_bump_map_correction", "displacement_method", "volume_step_rate",
@@ -36,13 +36,14 @@ def forget_materials(changed: Iterable[bpy.types.ID] | None = None) -> None:
 
 
 def content_of(material: bpy.types.Material) -> bytes:
-    """Return a digest of all that renders show of a material: as `colours_of`, with what images hold and the present
-    values of what is animated, and without the names of what its nodes point to."""
+    """Return a digest of everything that renders show of a material. Unlike `colours_of`, it includes the contents of
+    images and the present values of animated properties, and ignores the names of data that nodes refer to.
+    """
     known = _contents.get(material.session_uid)
     if known is None:
         plain = [name for name in RENDERED if hasattr(material, name)]
         known = content_of_data(material, (*COLOURS, *plain), CYCLES)
-        # where an object stands that a node points to is told of that object alone
+        # the place of an object that a node refers to is not reported as a change of the material
         if not any(getattr(node, "object", None) for node in all_nodes(material.node_tree)):
             _contents[material.session_uid] = known
     return known
@@ -57,7 +58,7 @@ def content_of_data(data: bpy.types.Material | bpy.types.Light | bpy.types.World
 
 
 def _content(item: bpy.types.ID) -> object:
-    """Return a digest of data that a node points to: of its content, or of its place."""
+    """Return a digest of data that a node refers to: of its content, or of its transform."""
     if isinstance(item, bpy.types.Image):
         return image_content(item)
     if isinstance(item, bpy.types.Object):
@@ -69,13 +70,13 @@ def _content(item: bpy.types.ID) -> object:
 
 
 def materials_of(objects: list) -> str:
-    """A digest of which materials objects show, and which of these are mirrors or let light through."""
+    """Return a digest of the materials that objects show, and of which of these are mirrors or transparent."""
     return _digest(repr([[(material.name_full, is_mirror(material), is_opaque(material)) if material else None
                           for material in shown_by(obj)] for obj in objects]).encode())
 
 
 def colours_of(objects: list) -> str:
-    """A digest of what the materials of objects are made of."""
+    """Return a digest of the contents of the materials of objects."""
     told = blake2b(digest_size=SIZE)
     for material in [material for obj in objects for material in shown_by(obj)]:
         if material is None:
@@ -93,10 +94,10 @@ def _digest(told: bytes) -> str:
 
 def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain: Iterable[str],
             content: Callable | None = None) -> Iterator:
-    """The nodes that make something, with all that is set in them, and what is set of it besides, by its names.
+    """Yield the nodes of a data-block with their settings, and its own settings `plain` by name.
 
-    Data that nodes point to count by their names, and what is animated does not; or, where `content` tells what stands
-    for such data, by that, and with its present value.
+    Data that nodes refer to is represented by name, and animated values are ignored. With `content`, such data is
+    represented by the result of `content`, and animated data by its present values.
     """
     yield [_plain(getattr(data, name)) for name in plain]
     if not compat.uses_nodes(data):
@@ -104,7 +105,7 @@ def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain:
     trees: dict = {}
     for node in all_nodes(data.node_tree):
         trees[node.id_data] = None
-        # what is animated is another one in each frame, and so is what was made of it
+        # animated values differ in each frame, and results of other frames are not outdated by them
         if content is not None or node.id_data.animation_data is None:
             yield list(_values(node, _own_settings(node), 0, content))
             yield [_plain(socket.default_value) for socket in node.inputs if hasattr(socket, "default_value")]
@@ -115,12 +116,12 @@ def made_of(data: bpy.types.Material | bpy.types.Light | bpy.types.World, plain:
 
 
 def _own_settings(node: bpy.types.Node) -> list[str]:
-    """The settings of a kind of node, without those that each node has."""
+    """Return the settings of a type of node, without those that every node has."""
     return [name for name in node.bl_rna.properties.keys() if name not in bpy.types.Node.bl_rna.properties]
 
 
 def _values(struct, names: Iterable[str], depth: int, content: Callable | None) -> Iterator:
-    """The values of settings, those of what they point to among them."""
+    """Yield the values of settings, including those of nested settings."""
     for name in names:
         kind, value = struct.bl_rna.properties[name].type, getattr(struct, name)
         if isinstance(value, bpy.types.ID):
@@ -134,7 +135,7 @@ def _values(struct, names: Iterable[str], depth: int, content: Callable | None) 
 
 
 def _plain(value):
-    """A value as it is written down, arrays and sets in their order."""
+    """Return a value in a form that can be written; arrays and sets become ordered."""
     if isinstance(value, str | bool | int | float) or value is None:
         return value
     if isinstance(value, bpy.types.ID):

@@ -17,16 +17,16 @@ from . import digests
 from .lamps import lamp_content, world_content
 from .materials import SIZE, content_of
 
-# what renders go by of an object besides its geometry and its materials
+# properties of objects that affect renders, besides geometry and materials
 FLAGS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter", "visible_shadow",
          "is_holdout", "is_shadow_catcher", "pass_index")
 CYCLES_FLAGS = ("shadow_terminator_offset", "shadow_terminator_geometry_offset", "is_caustics_caster",
                 "is_caustics_receiver", "ao_distance", "use_adaptive_subdivision", "dicing_rate", "is_portal")
-# of modifiers, by which renders may show other meshes than viewports
+# properties of modifiers that may give renders other meshes than viewports
 RENDER_LEVELS = ("show_render", "render_levels", "render_resolution")
 PARTICLES = ("count", "child_type", "rendered_child_count", "child_percent", "render_type", "particle_size",
              "render_step", "child_length", "child_radius", "hair_length", "root_radius", "tip_radius", "radius_scale")
-# drawn as the meshes that they become, or never
+# object types that engines draw as generated meshes, or not at all
 UNDRAWN = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "SURFACE", "FONT", "META", "LIGHT_PROBE"}
 
 _told: dict[tuple, Rendered] = {}
@@ -72,7 +72,7 @@ def forget_rendered(changed: Iterable[bpy.types.ID] | None = None) -> None:
 def _taken(context: bpy.types.Context) -> Rendered:
     depsgraph, layer = context.evaluated_depsgraph_get(), context.view_layer
     in_renders, given = rendered_in(layer), {}
-    counts: dict[bpy.types.Object, bool] = {}  # of owners: whether they are inputs of light, and rendered
+    counts: dict[bpy.types.Object, bool] = {}  # by owner: True if it is an input of light and rendered
     objects: dict[int, list] = {}
     materials: dict[int, list] = {}
     lamps: list = []
@@ -114,14 +114,14 @@ def _digest(parts: list[bytes]) -> bytes:
 
 
 def _flags_of(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bytes:
-    """A digest of what renders go by of an object besides geometry and materials."""
+    """Return a digest of an object's properties that affect renders, besides geometry and materials."""
     if obj.session_uid not in _flags:
         _flags[obj.session_uid] = blake2b(repr(_read(obj, layer)).encode(), digest_size=SIZE).digest()
     return _flags[obj.session_uid]
 
 
 def _read(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> list:
-    """The values of flags, ray visibility and links; a window's mirror counts as seen."""
+    """Return the values of flags, ray visibility and links. A mirror that is a window counts as visible."""
     known = [getattr(obj, name) for name in FLAGS] + list(obj.color)
     known += [obj.visible_camera or obj.reflection_mesh.camera_hidden, obj.holdout_get(view_layer=layer),
               obj.indirect_only_get(view_layer=layer)]

@@ -1,4 +1,4 @@
-"""What the light that a mirror throws was made from, and what has become of that."""
+"""Record the inputs of caustics, and find the inputs that have changed since."""
 from __future__ import annotations
 
 import json
@@ -21,8 +21,9 @@ ASKED = ("tolerance", "depth")  # settings that light depends on
 
 
 class LightOrigin(NamedTuple):
-    """What light is made from: digests of the mirror, the lamp, what is lit and what stands around, with their
-    materials, and settings."""
+    """The inputs of caustics: digests of the mirror, of the lamp, of the lit objects and of the occluders around, with
+    their materials, and the settings.
+    """
 
     mirror: str
     lamp: str
@@ -32,12 +33,12 @@ class LightOrigin(NamedTuple):
 
 
 def light_record(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object, sources: list) -> str:
-    """The text that the light of a mirror and a lamp on `sources` keeps, if it is made now."""
+    """Return the text that caustics of a mirror and a lamp on `sources` store if they are made now."""
     return json.dumps(_origin(context, mirror, lamp, sources)._asdict())
 
 
 def why_light_is_stale(context: bpy.types.Context, light: bpy.types.Object) -> str:
-    """What has changed since the light of a mirror was made, in a few words, as `why_stale` tells of a reflection."""
+    """Return what has changed since caustics were made, in a few words, like `why_stale` for a reflection."""
     record = light.reflection_mesh
     if not record.made_from or plays(light):
         return ""
@@ -48,14 +49,15 @@ def why_light_is_stale(context: bpy.types.Context, light: bpy.types.Object) -> s
 
 
 def lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tuple:
-    """Where a lamp stands, whether mirrors see it, and all that its data tells in numbers; of a mesh its shape and what
-    it emits."""
+    """Return the transform of a lamp, its visibility in mirrors and its properties as numbers. For a mesh, return a
+    digest of its shape and its emission.
+    """
     if lamp.type != "LIGHT":
         return digests.digest_of(depsgraph, [lamp]), lamp.visible_glossy, *(radiance_of(slot.material).tobytes()
                                                        for slot in lamp.material_slots)
     evaluated = lamp.evaluated_get(depsgraph)
     data = evaluated.data
-    # all data has numbers of its own, which say nothing of light, and are others in another session
+    # skip the properties of all data-blocks: they do not affect light and may differ between sessions
     values = (getattr(data, prop.identifier) for prop in data.bl_rna.properties if prop.type in NUMBERS
               and prop.identifier != "use_nodes" and prop.identifier not in bpy.types.ID.bl_rna.properties)
     return (np.array(evaluated.matrix_world, dtype=np.float32).tobytes(), lamp.visible_glossy,
@@ -65,7 +67,7 @@ def lamp_numbers(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> tupl
 
 
 def _changed(context: bpy.types.Context, light: bpy.types.Object) -> str:
-    """What is no longer as it was when light was made."""
+    """Return the first input of caustics that has changed, in a few words."""
     record = light.reflection_mesh
     if record.made_from == COARSE:
         return "Live was stopped before it was exact"
@@ -78,7 +80,7 @@ def _changed(context: bpy.types.Context, light: bpy.types.Object) -> str:
 
 
 def _difference(made: LightOrigin, now: LightOrigin) -> str:
-    """What tells two origins apart, in a few words; empty where nothing does."""
+    """Return the difference between two records in a few words; "" if there is none."""
     if made.mirror != now.mirror:
         return "the mirror has changed"
     if made.lamp != now.lamp:
@@ -96,7 +98,7 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
     around = [obj for obj in blocking(context, Participants([mirror], sources, []))
               if obj != lamp and not is_glint(obj)]
     numbers = blake2b(repr(lamp_numbers(depsgraph, lamp)).encode(), digest_size=digests.SIZE).hexdigest()
-    # what is hidden gives no light
+    # hidden lamps emit no light
     numbers += "" if seen_in(context)(lamp) else " hidden"
     return LightOrigin(digests.digest_of(depsgraph, [mirror]) + colours_of([mirror]), numbers,
                        digests.digest_of_shown(depsgraph, sources, unmirrored=True) + colours_of(sources)
@@ -105,7 +107,7 @@ def _origin(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.type
 
 
 def _unseen(sources: list) -> str:
-    """Which of what is lit the camera does not see."""
+    """Return a text with the indices of lit objects that are hidden from the camera; "" if there are none."""
     unseen = [number for number, obj in enumerate(sources) if obj is not None and not obj.visible_camera]
     return f" unseen {unseen}" if unseen else ""
 
@@ -115,7 +117,7 @@ def _settings(context: bpy.types.Context, mirror: bpy.types.Object) -> dict:
 
 
 def _read(text: str) -> LightOrigin | None:
-    """What `light_record` wrote; None where it wrote nothing."""
+    """Return the inputs from a text of `light_record`; None for any other text."""
     if len(text) > LONGEST:
         return None
     try:

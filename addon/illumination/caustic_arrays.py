@@ -15,19 +15,19 @@ from .light_sources import Eye
 from .mirrors import MirrorPart, Tint, mirror_attributes
 from .receiver_places import PLACES, places_asked
 
-LIFT = 1e-4  # of the size of what is lit, or of the camera's picture there: how far the mesh lies before it
-ROUNDING = 2.0 ** -20  # of a coordinate: by how much single precision may miss, several times over
-DEPTH_STEP = 2.0 ** -22  # of the depth buffer of viewports: what it can tell apart, several times over
-SPREAD = 2.0  # times as far before it: where the layer of the largest number lies
-ACROSS = np.array((0.6180, 0.7071, 0.3437))  # an odd direction, along which few places of a mirror are as far
-FLAT = 1e-11  # of unit vectors' scalar product: what misses 1 by less is rounding
-GRAZING = 1e-2  # cosine: light that comes more level to a triangle is shaded as if it did not
-MOST_LIFT = 2e-3  # of the size of what is lit
+LIFT = 1e-4  # offset of the mesh, relative to the size of the lit object or of the camera's picture there
+ROUNDING = 2.0 ** -20  # relative to a coordinate; a multiple of the rounding of single precision
+DEPTH_STEP = 2.0 ** -22  # relative to the depth; a multiple of the resolution of the viewport's depth buffer
+SPREAD = 2.0  # factor between the offsets of the last layer and the first
+ACROSS = np.array((0.6180, 0.7071, 0.3437))  # direction along which few points of a mirror have equal coordinates
+FLAT = 1e-11  # tolerance of the scalar product of equal unit vectors
+GRAZING = 1e-2  # smallest cosine of the angle of incidence that is used for shading
+MOST_LIFT = 2e-3  # largest offset, relative to the size of the lit object
 
 
 @dataclass(frozen=True)
 class MirrorPlaces:
-    """Which of a mirror's tints are textured, and the mirror with its coordinates, where any is."""
+    """The tints of a mirror that are textured, and the mirror with its coordinates (None if there are none)."""
 
     tints: list[Tint]
     mirror: DiffuseScene | None
@@ -35,9 +35,9 @@ class MirrorPlaces:
 
 def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: DiffuseScene,
                    places: MirrorPlaces, camera: bpy.types.Object | None) -> MeshArrays:
-    """The arrays of one object: the light of all of a lamp's places that all parts of a mirror throw.
+    """Return the arrays of one object with the caustics of all points on a lamp and of all parts of a mirror.
 
-    Its faces are transparent and add their own light, so they may lie over each other in any order.
+    Its faces are transparent and add their own light, so they may overlap in any order.
     """
     meshes = [mesh for *_, mesh in lit]
     positions = np.concatenate([mesh.positions for mesh in meshes])
@@ -58,7 +58,7 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
     lift = _lift(positions, size, float(np.abs(positions).max()), camera)
     lift *= _layers(together["mirror_position"], together["image_parity"], place)
     flat, positions = areas(positions[triangles]), positions + lift[:, None] * _normals(positions, triangles)
-    # where layers meet on a caustic slivers stand upright between them, and have many times their area
+    # slivers stand upright between the layers that meet on a caustic, and have many times their flat area
     share *= (flat / np.maximum(areas(positions[triangles]), np.maximum(flat, 1e-300)))[:, None]
     light *= share[:, :, None]
     breathe()
@@ -84,7 +84,9 @@ def caustic_arrays(lit: list[tuple[Eye, MirrorPart, CausticMesh]], scene: Diffus
 
 
 def _unseen(scene: DiffuseScene, source: np.ndarray) -> tuple[Attribute, ...]:
-    """Which faces light what the camera does not see, by the triangles (m,) that they light; none where it sees all."""
+    """Return an attribute (m,) that marks faces on objects hidden from the camera, for lit triangles `source` (m,).
+    Return nothing if all objects are visible.
+    """
     seen = np.array([obj.visible_camera for obj in scene.sources])
     return () if seen.all() else (
         Attribute(UNSEEN, "FLOAT", "FACE", (~seen[scene.source_object[source]]).astype(np.float32)),)
@@ -92,20 +94,22 @@ def _unseen(scene: DiffuseScene, source: np.ndarray) -> tuple[Attribute, ...]:
 
 def _by_later_mirrors(parts: list[tuple[MirrorPart, np.ndarray, CausticMesh]],
                       share: np.ndarray) -> list[tuple[MirrorPart, np.ndarray, CausticMesh]]:
-    """Parts of a mirror, the `share` (m, 3) of the light (m, 3, 3) sent by each that is shown, as later mirrors leave
-    it, and their faces."""
+    """Return the parts of a mirror with their light (m, 3, 3) after the absorption by later mirrors, and their faces.
+    `share` (m, 3) is the share of the light of each part that is shown.
+    """
     start = np.cumsum([0] + [len(sent) for _, sent, _ in parts])
     return [(part, sent * part.colours.left(mesh.met[:, 1:], mesh.cosine[:, :, 1:])
              * share[first:first + len(sent), :, None], mesh) for (part, sent, mesh), first in zip(parts, start)]
 
 
 def _shading(scene: DiffuseScene, together: dict) -> np.ndarray:
-    """By how much (m, 3) the smooth normals of what is lit change the light at the corners, which engines shade by the
-    cosine to these instead of the flat triangle's."""
+    """Return the factor (m, 3) by which smooth normals of the receivers change the light at the corners. Engines shade
+    by the cosine to these normals instead of the flat triangle's.
+    """
     used, own = np.unique(together["source_face"], return_inverse=True)
     flat = scene.mesh.face_normals()[used][:, None]
     normals = _unit(scene.normals[used], flat)
-    # what is lit is flat more often than not
+    # most receivers are flat
     smooth = np.flatnonzero(((normals * flat).sum(axis=2).min(axis=1) <= 1.0 - FLAT)[own])
     share = np.ones((len(own), 3))
     flat, direction = flat[own[smooth]], together["direction"][smooth]
@@ -118,14 +122,15 @@ def _shading(scene: DiffuseScene, together: dict) -> np.ndarray:
 
 
 def _unit(vectors: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Vectors (..., 3) made as long as 1, or the `other` ones where they have no length."""
+    """Normalise vectors (..., 3); replace vectors without length by those of `other`."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.where(length > 0.0, vectors / np.where(length > 0.0, length, 1.0), other)
 
 
 def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types.Object | None) -> np.ndarray:
-    """How far (n,) the mesh is to lie before what it lights: single precision, and from the camera the depth buffer,
-    have to tell both apart."""
+    """Return the offset (n,) of the mesh from its receivers. Single precision and, from the camera, the depth buffer
+    must be able to separate both.
+    """
     if camera is None or camera.type != "CAMERA":
         return np.full(len(positions), LIFT * size + ROUNDING * farthest)
     distance = np.linalg.norm(positions - np.array(camera.matrix_world.translation), axis=1)
@@ -135,22 +140,25 @@ def _lift(positions: np.ndarray, size: float, farthest: float, camera: bpy.types
 
 
 def _seen_width(camera: bpy.types.Camera, distance: np.ndarray) -> np.ndarray | float:
-    """How wide (n,) the camera's picture is at a distance."""
+    """Return the width (n,) of the camera's picture at a distance."""
     if camera.type == "ORTHO":
         return float(camera.ortho_scale)
     return distance if camera.type == "PANO" else 2.0 * np.tan(0.5 * camera.angle) * distance
 
 
 def _layers(mirror_position: np.ndarray, parity: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """By how many times as far (n,) faces lie that are turned over, to which light comes from elsewhere on the mirror,
-    or from another `place` (n,) of the lamp: Cycles takes surfaces in one place for one."""
+    """Return the factor (n,) of the offset that separates layers: mirrored faces, light from elsewhere on the mirror,
+    and other points `place` (n,) of the lamp. Cycles merges surfaces at the same position.
+    """
     along = mirror_position @ ACROSS
     along = (along - along.min()) / max(float(np.ptp(along)), 1e-300)
     return 1.0 + SPREAD * (place + 0.5 * along + 0.25 * (1 - parity)) / (place.max() + 1)
 
 
 def _normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Unit normals (n, 3) of vertices, to the side that is lit: as far before each of the faces beside them."""
+    """Return unit normals (n, 3) of vertices towards the lit side, scaled so that all adjacent faces get the same
+    offset.
+    """
     corners = positions[triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     total = np.stack([np.bincount(triangles.ravel(), np.repeat(normal[:, axis], 3), minlength=len(positions))

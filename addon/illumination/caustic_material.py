@@ -25,10 +25,12 @@ UNSEEN = "lit_unseen"
 
 def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy.types.NodeTree]],
                whole: AllOrNothing, unseen: bool = False) -> tuple[bpy.types.Material, bool]:
-    """A material that is transparent and emits what the receiver's diffuse colour sends back of the light, and whether
-    it knows that colour all over: it is read from the nodes of the receiver, of which it has a copy.
-    The light is that of a mirror with `stains`, textured tints and the groups that tell their colours; some of what is
-    lit may be `unseen` by the camera."""
+    """Return a transparent material that emits the caustic light times the receiver's diffuse colour, and True if the
+    colour is fully known. The colour comes from copies of the receiver's nodes.
+
+    `stains` are textured tints of the mirror, with the groups that compute their colours. Set `unseen` if some
+    receivers are hidden from the camera.
+    """
     name = f"{receiver.name if receiver else 'Default'} Caustics"
     found = DiffuseColour(GREY if receiver is None else tuple(receiver.diffuse_color))
     if receiver is None or not compat.uses_nodes(receiver):
@@ -59,13 +61,14 @@ def adds_light(receiver: bpy.types.Material | None, stains: list[tuple[Tint, bpy
 
 
 def light_alone(material: bpy.types.Material | None) -> bpy.types.Material | None:
-    """A copy, the caller's to remove, of a material that adds light: it emits what white paint would send back of that,
-    to either side; None where the material is not as it was made here."""
+    """Return a copy of a material that adds light, which emits what white paint would reflect of it, to both sides. The
+    caller removes it. Return None if the material was not made here in this form.
+    """
     if material is None or not material.get(MARK):
         return None
     copy = material.copy()
     tree = copy.node_tree
-    # as `_show` has linked them
+    # the links that `_show` has made
     both = _behind(tree.get_output_node("ALL"), "ADD_SHADER", "Surface")
     emission = _behind(both, "EMISSION")
     product = _behind(emission, "VECT_MATH")
@@ -80,13 +83,13 @@ def light_alone(material: bpy.types.Material | None) -> bpy.types.Material | Non
 
 
 def _behind(node: bpy.types.Node | None, kind: str, socket: str | int = 0) -> bpy.types.Node | None:
-    """What feeds a socket of a node, where it is of that kind."""
+    """Return the node of type `kind` that feeds a socket of a node; None if there is none."""
     links = () if node is None else node.inputs[socket].links
     return next((link.from_node for link in links if link.from_node.type == kind), None)
 
 
 def forget_added_light(materials: list) -> None:
-    """Remove those of the materials that were made here and that nothing uses any more."""
+    """Remove those of the materials that were made here and have no users any more."""
     for material in materials:
         if material is not None and material.get(MARK) and material.users == 0:
             bpy.data.materials.remove(material)
@@ -94,7 +97,7 @@ def forget_added_light(materials: list) -> None:
 
 
 def _thrown(tree: bpy.types.NodeTree, stains: list[tuple[Tint, bpy.types.NodeTree]]) -> bpy.types.NodeSocket:
-    """The light: as if each tint were one colour, and what the true colour adds to it."""
+    """Return the caustic light: with one colour for each tint, plus the difference to the textured colours."""
     build = ShaderBuilder(tree)
     light = build.add("ShaderNodeAttribute", attribute_name=LIGHT).outputs["Vector"]
     for number, (tint, group) in enumerate(stains):
@@ -106,9 +109,9 @@ def _thrown(tree: bpy.types.NodeTree, stains: list[tuple[Tint, bpy.types.NodeTre
 
 
 def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-    """Let a tree emit its colour times the light's, times a share, over pi, and show what lies behind; to the side that
-    is lit alone, or the receiver would be lit by what it sends back.
-    The socket that tells how strong that is."""
+    """Make a tree emit its colour times the light times a share, divided by pi, on top of what lies behind. Emit to the
+    lit side only; otherwise the emission would light the receiver. Return the socket with the strength.
+    """
     share = sent.share
 
     def add(kind: str, place: tuple[float, float]) -> bpy.types.Node:
@@ -146,7 +149,7 @@ def _show(tree: bpy.types.NodeTree, sent: DiffuseColour, light: bpy.types.NodeSo
 
 
 def _hide_from_camera(tree: bpy.types.NodeTree, strength: bpy.types.NodeSocket) -> None:
-    """Let nothing be emitted to the camera by faces that light what it does not see; mirrors show these."""
+    """Emit nothing to the camera from faces on receivers that the camera does not see. Mirrors show these."""
     build = ShaderBuilder(tree)
     asked = build.add("ShaderNodeLightPath").outputs["Is Camera Ray"]
     dark = build.calculated("MULTIPLY", asked, build.add("ShaderNodeAttribute", attribute_name=UNSEEN).outputs["Fac"])

@@ -1,4 +1,4 @@
-"""In what colour a surface sends diffuse light back, as nodes: those of its shaders, mixed as these are."""
+"""Compute the diffuse colour of a surface as nodes: the colours of its shaders, mixed like the shaders."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -22,18 +22,18 @@ BLACK, GREY = (0.0, 0.0, 0.0, 1.0), (0.8, 0.8, 0.8, 1.0)
 
 @dataclass(frozen=True)
 class DiffuseColour:
-    """What a surface sends back of light.
+    """The diffuse reflectance of a surface.
 
     Attributes
     ----------
     colour : tuple of float or bpy.types.NodeSocket
-        Red, green, blue and 1, or a socket that tells them.
+        Red, green, blue and 1, or a socket with the colour.
     share : float or bpy.types.NodeSocket
-        What part of the colour's light leaves the surface.
+        Factor of the colour.
     known : bool
-        Whether that is all of it.
+        True if this is the complete reflectance.
     by_nodes : bool
-        Whether nodes of the material tell it.
+        True if nodes of the material determine it.
     """
 
     colour: tuple | bpy.types.NodeSocket = BLACK
@@ -43,8 +43,9 @@ class DiffuseColour:
 
 
 def diffuse_colour(tree: bpy.types.NodeTree, surface: bpy.types.NodeSocket, whole: AllOrNothing) -> DiffuseColour:
-    """The diffuse colour of what is plugged into a socket for shaders, by nodes that are added to the tree, which is
-    our own; groups on the way are copied."""
+    """Return the diffuse colour of the shader linked to a socket. Nodes are added to the tree, which must be our own;
+    groups are copied.
+    """
     source = _source(surface)
     if source is None:
         return DiffuseColour()
@@ -78,7 +79,7 @@ def _mixed(tree: bpy.types.NodeTree, shader: bpy.types.Node, parts: list[Diffuse
 
 
 def _product(build: ShaderBuilder, part: DiffuseColour) -> tuple | bpy.types.NodeSocket:
-    """The colour times its share."""
+    """Return the colour times its share."""
     colour, share = part.colour, part.share
     if share == 1.0:
         return colour
@@ -88,7 +89,7 @@ def _product(build: ShaderBuilder, part: DiffuseColour) -> tuple | bpy.types.Nod
 
 
 def _in_group(node: bpy.types.Node, source: bpy.types.NodeSocket, whole: AllOrNothing) -> DiffuseColour:
-    """The colour of a group's shader, which a copy of the group has as an output more."""
+    """Return the colour of a shader in a group, from an additional output of a copy of the group."""
     if not node.node_tree.get(MARK):
         node.node_tree = node.node_tree.copy()
         node.node_tree[MARK] = True
@@ -109,7 +110,7 @@ def _in_group(node: bpy.types.Node, source: bpy.types.NodeSocket, whole: AllOrNo
 
 
 def _source(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
-    """The socket of the node that feeds another one, past reroutes."""
+    """Return the socket of the node that feeds another socket, ignoring reroutes."""
     while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
         socket = socket.links[0].from_node.inputs[0]
     return socket.links[0].from_socket if socket.is_linked else None

@@ -1,4 +1,4 @@
-"""What part of a surface's colour it sends back as diffuse light, as Cycles divides it."""
+"""Compute the share of a surface's colour that it reflects diffusely, as Cycles computes it."""
 from __future__ import annotations
 
 import bpy
@@ -7,14 +7,15 @@ from ..reading.materials import index_of, upright
 from ..writing.nodes.shader_builder import ShaderBuilder, given
 
 SHARES = ("Metallic", "Transmission Weight", "Alpha")
-# of the gloss, as Cycles has it at the roughnesses 0.5 and 1, seen from upright to 70 degrees
-FADES, FADES_BY = 0.65, 3.3  # how much less a rough one sends back, and how late
-SPREADS = 3.4  # how much less it rises towards grazing
+# fits to Cycles' gloss at the roughnesses 0.5 and 1, from normal incidence to 70 degrees
+FADES, FADES_BY = 0.65, 3.3  # loss of reflectance at roughness 1, and exponent of the roughness
+SPREADS = 3.4  # loss of the rise towards grazing angles
 
 
 def diffuse_share(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> float | bpy.types.NodeSocket:
-    """The part of its colour that a Diffuse or Principled BSDF sends back: what is metal or glass sends none, what is
-    transparent as much less, and what the gloss takes is gone."""
+    """Return the share of its colour that a Diffuse or Principled BSDF reflects. Metal and glass reflect none,
+    transparency and the gloss reduce it.
+    """
     if shader.type != "BSDF_PRINCIPLED":
         return 1.0
     build, share = ShaderBuilder(tree), 1.0
@@ -25,8 +26,9 @@ def diffuse_share(tree: bpy.types.NodeTree, shader: bpy.types.Node) -> float | b
 
 
 def _gloss(build: ShaderBuilder, shader: bpy.types.Node) -> float | bpy.types.NodeSocket:
-    """What the layer over the colour sends back by itself, of values that are plugged off: Fresnel's share, and of a
-    rough layer less of it, and less of its rise."""
+    """Return the reflectance of the layer over the colour, with linked sockets at their unlinked value. It is Fresnel's
+    share, reduced for rough layers, with a flatter rise.
+    """
     straight, rough = upright(shader), shader.inputs["Roughness"].default_value
     if not straight > 0.0:
         return 0.0

@@ -1,4 +1,4 @@
-"""What stands in the light's way: opaque objects beside the mirrors and what they light."""
+"""Find occluders of light: opaque objects other than the mirrors and the receivers."""
 from __future__ import annotations
 
 import bpy
@@ -9,7 +9,7 @@ from ..reading import Participants, is_opaque, materials_of, may_have_faces, rea
 
 
 def blocking(context: bpy.types.Context, chosen: Participants) -> list:
-    """What else stands in the light's way: all that casts shadows and has parts that no light goes through."""
+    """Return the visible opaque objects that cast shadows and do not take part."""
     part_takers, is_seen = {*chosen.mirrors, *chosen.diffuse}, seen_in(context)
     return [obj for obj in context.view_layer.objects
             if obj not in part_takers and may_have_faces(obj) and is_seen(obj) and obj.visible_shadow
@@ -18,7 +18,7 @@ def blocking(context: bpy.types.Context, chosen: Participants) -> list:
 
 
 def blockers_of(depsgraph: bpy.types.Depsgraph, objects: list) -> core.TriangleMesh | None:
-    """What of objects no light goes through, as one mesh; None where none of them has such faces."""
+    """Return the opaque faces of `objects` as one mesh; None if there are none."""
     if not objects:
         return None
     try:

@@ -25,31 +25,33 @@ OF_THE_OBJECT = {"OBJECT_INFO": None, "TEX_COORD": {"Normal"}, "HAIR_INFO": None
 
 
 def places_asked(materials: list) -> list[str]:
-    """Outputs of Texture Coordinate that materials ask for, as they are or as what textures take without being told."""
+    """Return the outputs of Texture Coordinate that materials use, explicitly or as default of textures."""
     found = {name for material in materials if material is not None and compat.uses_nodes(material)
              for name in asked_by(all_nodes(material.node_tree))}
     return [name for name in PLACES if name in found]
 
 
 def asked_by(nodes: Iterable[bpy.types.Node]) -> set[str]:
-    """Coordinates of the object that nodes ask for, its normals as `NORMAL`, those of its UV maps as `uv` and the map's
-    name; and what is stored on it, as `stored` and its name."""
+    """Return the coordinates of the object that nodes read: normals as `NORMAL`, UV maps as `uv(name)`, and stored
+    attributes as `stored(name)`.
+    """
     return {name for node in nodes for name in (*_asked(node), *_stored(node))}
 
 
 def uv(name: str) -> str:
-    """What the coordinates of a UV map are called, those of the active one where it has no name."""
+    """Return the name for coordinates of a UV map; of the active one if `name` is empty."""
     return f"UV {name}"
 
 
 def stored(name: str) -> str:
-    """What a colour or another attribute of an object is called, its active colour where it has no name."""
+    """Return the name for a colour or another attribute of an object; for its active colour if `name` is empty."""
     return f"Stored {name}"
 
 
 def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing, places: dict = PLACES) -> None:
-    """Let the nodes of a tree, which is our own, ask for the attributes that stand for `places`; groups that ask for
-    any are copied."""
+    """Replace coordinates in the nodes of a tree, which must be our own, by the attributes in `places`. Groups that use
+    any are copied.
+    """
     for node in list(tree.nodes):
         if node.type == "GROUP" and node.node_tree is not None and any(
                 name in places for name in asked_by(all_nodes(node.node_tree))):
@@ -70,7 +72,7 @@ def show_by_places(tree: bpy.types.NodeTree, whole: AllOrNothing, places: dict =
 
 
 def asks_for_more(tree: bpy.types.NodeTree) -> bool:
-    """Whether nodes ask the object that shows them for what no attribute stands for."""
+    """Return True if nodes read data of the object that no attribute provides."""
     for node in all_nodes(tree):
         if node.type in OF_THE_OBJECT:
             outputs = OF_THE_OBJECT[node.type]
@@ -83,14 +85,14 @@ def asks_for_more(tree: bpy.types.NodeTree) -> bool:
 
 
 def forget_groups() -> None:
-    """Remove the copies of groups that nothing uses any more, those within others after these."""
+    """Remove unused copies of groups; nested ones last."""
     while abandoned := [group for group in bpy.data.node_groups if group.get(MARK) and not group.users]:
         for group in abandoned:
             bpy.data.node_groups.remove(group)
 
 
 def _asked(node: bpy.types.Node) -> dict[str, list]:
-    """The coordinates that a node stands for or takes without being told, and the sockets that they go to."""
+    """Return the coordinates that a node provides or takes by default, and the sockets that use them."""
     def fed(output: bpy.types.NodeSocket) -> list:
         return [link.to_socket for link in output.links]
     if node.type == "TEX_COORD" and not node.from_instancer:
@@ -102,12 +104,12 @@ def _asked(node: bpy.types.Node) -> dict[str, list]:
     vector = node.inputs.get("Vector") if node.type.startswith("TEX_") else None
     told = vector is None or not vector.enabled or vector.is_linked
     found = {} if told else {uv("") if node.type == "TEX_IMAGE" else "Generated": [vector]}
-    # which side of a box shows its picture the normal tells
+    # the normal chooses the side of the box
     return found | {NORMAL: []} if node.type == "TEX_IMAGE" and node.projection == "BOX" else found
 
 
 def _stored(node: bpy.types.Node) -> dict[str, list]:
-    """What is stored on the object that a node reads, and the sockets that it goes to."""
+    """Return the stored attributes that a node reads, and the sockets that use them."""
     if node.type not in {"ATTRIBUTE", "VERTEX_COLOR"} or getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY":
         return {}
     name = node.layer_name if node.type == "VERTEX_COLOR" else node.attribute_name

@@ -1,9 +1,8 @@
-"""What light ends on, and what goes through what is open in part to the next surface behind it.
+"""Split receivers of light by partly transparent sheets, which let light through to the next surface.
 
-A sheet through which a part t of the light goes lights what is behind it as one does that is away for the part t of
-the time, and opaque for the rest: so light is asked for with and without it, and the answers are weighted. Of several
-sheets each has its time. What meets one sheet twice is let through once: so a body is two, its sides to the mirror and
-those away from it.
+A sheet with transparency t counts as absent for the part t of the time and as opaque for the rest. So light is computed
+with and without it, and both are weighted. Several sheets are independent. Light that meets one sheet twice is
+transmitted once: so a body is two sheets, its sides towards the mirror and those away from it.
 """
 from __future__ import annotations
 
@@ -22,15 +21,15 @@ MOST = 2  # sheets that light is let through: each doubles the work
 
 @dataclass(frozen=True)
 class Receiving:
-    """Some of a scene's triangles, on which light ends.
+    """Some triangles of a scene that receive light.
 
     Attributes
     ----------
     mesh : core.TriangleMesh
     kept : (k,) int64
-        Which of the scene's triangles it has.
+        Index of each triangle in the scene.
     share : (k,) float64
-        What part of the light on each counts.
+        Weight of the light on each triangle.
     """
 
     mesh: core.TriangleMesh
@@ -38,20 +37,20 @@ class Receiving:
     share: np.ndarray
 
     def counted(self, lit: core.CausticMesh) -> dict:
-        """What of light on this mesh is another where it counts, on the scene's triangles, as arguments."""
+        """Return the fields of light on this mesh, weighted and for the scene's triangles, as keyword arguments."""
         share = self.share[lit.source_face]
         return {"irradiance": lit.irradiance * share[:, None], "flux": lit.flux * share,
                 "source_face": self.kept[lit.source_face]}
 
 
 def receiving(scene: DiffuseScene, mirror: core.TriangleMesh) -> list[Receiving]:
-    """What of a scene the light of a mirror ends on, once with and once without each sheet: clear glass is not lit, and
-    what lies behind it is.
+    """Return the receivers of a mirror's light in a scene, with and without each sheet. Clear glass is not lit, but the
+    objects behind it are.
 
     Raises
     ------
     core.ReflectionError
-        Where there is no such thing.
+        If there are no receivers.
     """
     through, sheet = _sheets(scene, mirror)
     lit = through < 1.0
@@ -65,7 +64,7 @@ def receiving(scene: DiffuseScene, mirror: core.TriangleMesh) -> list[Receiving]
             own = sheet == number
             part = through[own][0]
             there[own] &= not away
-            # its own light it has from the times when it is there
+            # a sheet is lit in the cases in which it is present
             share[~own] *= part if away else 1.0 - part
         kept = np.flatnonzero(there)
         if len(kept):
@@ -75,7 +74,7 @@ def receiving(scene: DiffuseScene, mirror: core.TriangleMesh) -> list[Receiving]
 
 
 def let_through(scene: DiffuseScene) -> list:
-    """Materials of a scene that let a part of the light through and at which it ends here all the same."""
+    """Return the materials of a scene that transmit a part of the light but count as opaque here."""
     through, sheet = _sheets(scene)
     parts = [transparency(material) for material in scene.materials]
     return [material for number, material in enumerate(scene.materials) if parts[number] is None
@@ -83,15 +82,16 @@ def let_through(scene: DiffuseScene) -> list:
 
 
 def _sheets(scene: DiffuseScene, mirror: core.TriangleMesh | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """What part of the light goes through each triangle (m,), and which sheet it is of, of those that have sides to a
-    mirror where one is told; -1 for what is of none."""
+    """Return the transparency (m,) of each triangle, and the index (m,) of its sheet, -1 for none. If a mirror is
+    given, the two sides of an object are different sheets.
+    """
     parts = np.array([transparency(material) or 0.0 for material in scene.materials])
     through = parts[scene.material]
     is_open = (through > 0.0) & (through < 1.0)
     sheet = np.full(len(through), -1)
     if not is_open.any():
         return through, sheet
-    # objects, and their sides, are sheets of their own until there are too many
+    # use separate sheets for objects and their sides, unless these are too many
     keys = [scene.source_object[is_open], through[is_open]]
     for key in ([_facing(scene, mirror, is_open), *keys], keys, keys[1:]):
         _, number = np.unique(np.stack(key), axis=1, return_inverse=True)
@@ -107,7 +107,7 @@ def _sheets(scene: DiffuseScene, mirror: core.TriangleMesh | None = None) -> tup
 
 
 def _facing(scene: DiffuseScene, mirror: core.TriangleMesh | None, chosen: np.ndarray) -> np.ndarray:
-    """Whether the fronts of the triangles that are `chosen` (m,) look to a mirror's middle."""
+    """Return 1.0 (m,) for `chosen` triangles whose front faces the mirror's middle, else 0.0."""
     corners = scene.mesh.positions[scene.mesh.triangles[chosen]]
     if mirror is None:
         return np.zeros(len(corners))

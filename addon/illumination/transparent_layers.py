@@ -1,7 +1,7 @@
-"""How many transparent layers Cycles follows: as many as light lies over each other, as long as there is such light.
+"""Set the number of transparent layers that Cycles follows, while overlapping caustics need more.
 
-Behind the last layer that it follows Cycles is dark. A floor with more layers of light on it would be black, so the
-number is raised where it has to be, and brought back with the light.
+Behind the last layer that it follows, Cycles shows black. A floor with more layers of light would be black, so the
+number is raised if necessary, and restored when the light is removed.
 """
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ import bpy
 from ..faults import AllOrNothing, one_or_more
 from ..reading.materials import shines
 
-MOST = 1024  # that Blender takes
-ROOM = 2  # times as many as were found: layers are counted in places
+MOST = 1024  # limit of Blender
+ROOM = 2  # safety factor, since layers are counted at sample points only
 _KEPT = "reflection_mesh_transparent_layers"
 
 
 def follow_layers(scene: bpy.types.Scene, layers: int, lit: Iterable[bpy.types.Material | None],
                   whole: AllOrNothing) -> list:
-    """Let Cycles follow as many `layers` of light as lie on the materials that are `lit`; a sentence where that was
-    changed, or not enough. What a glossy material mirrors passes its own layers twice."""
+    """Let Cycles follow as many `layers` of light as lie on the materials `lit`. Return a list with a sentence if the
+    number was changed or is too low. Glossy materials reflect the layers too, and need twice as many.
+    """
     bounces = scene.cycles.transparent_max_bounces
     if scene.render.engine != "CYCLES" or 2 * layers <= bounces:
         return []
@@ -39,8 +40,9 @@ def follow_layers(scene: bpy.types.Scene, layers: int, lit: Iterable[bpy.types.M
 
 
 def bring_back_layers() -> bool:
-    """Let Cycles follow as many layers as before in scenes without such light; whether there were any. What was changed
-    by hand since stays."""
+    """Restore the number of layers in scenes without such light, unless the user changed it since. Return True if there
+    were any such scenes.
+    """
     found = [scene for scene in bpy.data.scenes if _KEPT in scene
              and not any(obj.reflection_mesh.role == "CAUSTICS" for obj in scene.objects)]
     for scene in found:
@@ -52,7 +54,7 @@ def bring_back_layers() -> bool:
 
 
 def raises_layers() -> bool:
-    """Whether the number is raised in some scene."""
+    """Return True if the number is raised in some scene."""
     return any(_KEPT in scene for scene in bpy.data.scenes)
 
 
@@ -60,7 +62,7 @@ def _set(scene: bpy.types.Scene, count: int, whole: AllOrNothing) -> None:
     cycles, kept = scene.cycles, scene.get(_KEPT)
     bounces = cycles.transparent_max_bounces
     whole.undo(_take_back, scene, bounces, None if kept is None else tuple(kept))
-    # what was there before the first time, unless it was changed by hand since
+    # keep the number from before the first change, unless the user changed it since
     scene[_KEPT] = (kept[0] if kept is not None and kept[1] == bounces else bounces, count)
     cycles.transparent_max_bounces = count
 

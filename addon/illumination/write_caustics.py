@@ -17,26 +17,26 @@ SHOWN_BY = {"visible_glossy", "visible_transmission"}
 
 @dataclass(frozen=True)
 class Caustic:
-    """What is to be written for one mirror and one lamp.
+    """The caustics of one mirror and one lamp, before they are written.
 
     Attributes
     ----------
     name : str
-        Of a new object.
+        Name of a new object.
     mirror, lamp : bpy.types.Object
     sources : list of bpy.types.Object
-        What is lit, and after it what would be, were it not hidden.
+        Lit objects, followed by those that are hidden at the moment.
     arrays : MeshArrays
         With the receivers' materials.
     counts : dict
     layers : int
-        The most faces over each other.
+        Largest number of overlapping faces.
     plain : bool
-        Whether each of the mirrors' materials is one colour, but for the textured ones.
+        True if each of the mirror's materials has one colour or a known texture.
     textured : list of Tint
-        Of the mirror, whose colour changes over it.
+        Tints of the mirror with a texture.
     eyes : int
-        Places on the lamp that it comes from.
+        Number of points on the lamp.
     """
 
     name: str
@@ -52,15 +52,16 @@ class Caustic:
 
 
 def results_with(context: bpy.types.Context, mirror: bpy.types.Object, lamp: bpy.types.Object) -> list:
-    """Caustics of a mirror and a lamp in the scene that can be changed."""
+    """Return the editable caustics of a mirror and a lamp in the scene."""
     return [obj for obj in context.scene.objects if obj.reflection_mesh.role == "CAUSTICS" and obj.type == "MESH"
             and obj.reflection_mesh.mirror == mirror and obj.reflection_mesh.lamp == lamp and obj.library is None]
 
 
 def caustics_object(context: bpy.types.Context, name: str, pair: tuple, sources: list,
                     whole: AllOrNothing) -> bpy.types.Object:
-    """The object for the light of `pair`, a mirror and a lamp: the one that is there already, whose mesh may then be
-    written, or a new one of that name."""
+    """Return the object for the caustics of `pair`, a mirror and a lamp: the existing one, whose mesh may be
+    overwritten, or a new one with that name.
+    """
     earlier = results_with(context, *pair)
     if earlier:
         obj = earlier[0]
@@ -85,17 +86,16 @@ def caustics_object(context: bpy.types.Context, name: str, pair: tuple, sources:
 
 def write_caustics(context: bpy.types.Context, made: Caustic, whole: AllOrNothing,
                    keep_materials: bool = False) -> tuple[bpy.types.Object, list]:
-    """The light as an object, a new one or the one that is there already, updated in place; and the receivers'
-    materials whose colour it does not know. Where something fails, `whole` takes back all that is changed here.
+    """Write the caustics into a new object or the existing one, which is updated in place. Return the object, and the
+    receivers' materials whose colour is not known. If something fails, `whole` undoes all changes made here.
 
     Parameters
     ----------
     keep_materials : bool
-        Show the present materials further, where they are for the same receivers: engines need not make them ready
-        again.
+        Keep the present materials if they are for the same receivers. Then engines need not compile them again.
     """
     earlier = results_with(context, made.mirror, made.lamp)[:1]
-    # what is to be done at last is said first
+    # registered first, so that it runs last
     whole.after(forget_added_light, [material for obj in earlier for material in obj.data.materials])
     kept = [list(obj.data.materials) for obj in earlier
             if [entry.material for entry in obj.reflection_mesh.materials] == made.arrays.materials]
@@ -123,6 +123,6 @@ def write_caustics(context: bpy.types.Context, made: Caustic, whole: AllOrNothin
 
 
 def places_kept(context: bpy.types.Context, mirrors: list, lamps: list) -> dict:
-    """On how many places of its lamp the light of each (mirror, lamp) comes from that there is."""
+    """Return the number of points on the lamp of the existing caustics, by (mirror, lamp)."""
     return {(mirror, lamp): max(obj.reflection_mesh.eyes, 1) for mirror in mirrors for lamp in lamps
             for obj in results_with(context, mirror, lamp)[:1]}

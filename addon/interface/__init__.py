@@ -1,6 +1,6 @@
-"""What the user sees: panels, a menu, presets, the way to the manual, and all of it in other languages.
+"""The user interface: panels, a menu, presets, links to the manual, and translations.
 
-Nothing is computed here and nothing changed: what is drawn is read from the file, and buttons call operators.
+This package computes and changes nothing. It draws values from the file, and its buttons call operators.
 """
 from ..registration import together
 from . import manual, menus, panels, preset_buttons, translations

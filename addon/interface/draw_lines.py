@@ -9,7 +9,7 @@ BESIDE, LEAST = 96, 80
 
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "BLANK1") -> None:
-    """A sentence in as many lines as it needs here: of what is wider than the panel Blender leaves out a part."""
+    """Draw a sentence in as many lines as it needs. Blender would cut off text that is wider than the panel."""
     for number, line in enumerate(lines_of(context, text)):
         layout.label(text=line, icon="BLANK1" if number and icon != "NONE" else icon, translate=False)
 
@@ -20,16 +20,16 @@ def lines_of(context: bpy.types.Context, text: str) -> list[str]:
 
 
 def _room(context: bpy.types.Context) -> tuple[float, float]:
-    """The width of a line and the size of its letters, in pixels; without a region nothing is too wide."""
+    """Return the width of a line and the font size, in pixels. Without a region the width is infinite."""
     preferences, region = context.preferences, getattr(context, "region", None)
-    # which is 0 where there is no window
+    # 0 without a window
     scale = preferences.system.ui_scale or 1.0
     width = float("inf") if region is None else max(region.width - BESIDE * scale, LEAST * scale)
     return width, preferences.ui_styles[0].widget.points * scale
 
 
 def _lines(text: str, width: float, size: float) -> list[str]:
-    """The text in lines that are no wider; a word that is wider by itself has one of its own."""
+    """Return the text in lines that are not wider than `width`. A word that is too wide gets its own line."""
     blf.size(0, size)
     lines: list[str] = []
     for word in text.split():

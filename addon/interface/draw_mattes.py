@@ -7,7 +7,7 @@ LISTED = 20     # so many are all listed; of more those that are selected, or ha
 
 
 def draw_mattes(layout: bpy.types.UILayout, result: bpy.types.Object) -> None:
-    """A switch for each source of a result."""
+    """Draw a switch for each source of a result."""
     shown = [source.object for source in result.reflection_mesh.sources if source.object is not None]
     if len(shown) > LISTED:
         shown = [obj for obj in shown if obj.reflection_mesh.matte or obj.select_get()]

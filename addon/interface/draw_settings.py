@@ -6,13 +6,13 @@ import bpy
 from ..reading import can_take_part
 from ..settings import holder_of, mirror_of
 
-# what is behind the closed door of "Limits"
+# settings in the subpanel "Limits"
 SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_samples",), (
     "memory", "hidden_faces", "world_faces", "attributes", "join_parts")
 
 
 def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
-    """Those that hold for an object, and whose they are."""
+    """Draw the settings that apply to an object, and the switch for its own settings."""
     mirror = possible_mirror(obj)
     if mirror is not None:
         layout.prop(mirror.reflection_mesh, "own_settings")
@@ -27,14 +27,14 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
 
 
 def draw_limits(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
-    """What the work may take, and what it may leave out."""
+    """Draw the limits on memory and on the contents of results."""
     holder = holder_of(possible_mirror(obj), context.scene)
     for name in LIMITS:
         layout.prop(holder, name)
 
 
 def possible_mirror(obj: bpy.types.Object | None) -> bpy.types.Object | None:
-    """The object that may have settings of its own: a result's mirror, or what may be one."""
+    """Return the object that may have its own settings: a result's mirror, or an object that may be a mirror."""
     mirror = mirror_of(obj)
     if mirror is not None and len(obj.reflection_mesh.parts):
         # the root of a hierarchy may be an empty

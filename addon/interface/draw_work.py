@@ -15,14 +15,14 @@ TOOLS = (("reflection_mesh.compare", "IMAGE_DATA"), ("reflection_mesh.mirror_uvs
 
 
 def draw_buttons(layout: bpy.types.UILayout, operators: tuple) -> None:
-    """A button for each operator; they take their settings from the file."""
+    """Draw a button for each operator. The operators take their settings from the file."""
     column = layout.column(align=True)
     for name, icon in operators:
         column.operator(name, icon=icon)
 
 
 def draw_comparison(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """The numbers of the last comparison, and the way to its page."""
+    """Draw the numbers of the last comparison, and the link to its page."""
     told = show_comparison.lines(context.scene)
     if not told:
         return

@@ -1,4 +1,4 @@
-"""What *Online Manual* opens for the operators and settings of this extension."""
+"""Links of *Online Manual* for the operators and settings of this extension."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -12,7 +12,7 @@ PAGES = (
     ("bpy.types.reflectionscene.*", "#settings"),
     ("bpy.types.reflectionlive.*", "#operators"),
     ("bpy.types.reflectionobject.role", "#roles"),
-    # of a mirror's own
+    # other properties of a mirror
     ("bpy.types.reflectionobject.*", "#settings"),
 )
 

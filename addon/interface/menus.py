@@ -15,7 +15,7 @@ class VIEW3D_MT_reflection_mesh(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        # else a menu runs what stands in it without asking for a file or showing progress
+        # otherwise menu items would run without a file browser and without progress
         layout.operator_context = "INVOKE_REGION_WIN"
         for name, icon in WORK:
             layout.operator(name, icon=icon)

@@ -156,13 +156,13 @@ class REFLECTION_MESH_PT_object_figures(_Figures, _Properties, bpy.types.Panel):
 
 
 def active(context: bpy.types.Context) -> bpy.types.Object | None:
-    """The active object; none where there is no view layer."""
+    """Return the active object; None if there is no view layer."""
     layer = getattr(context, "view_layer", None)
     return None if layer is None else layer.objects.active
 
 
 def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    """The layout with names beside their values, as Blender's own panels have them."""
+    """Return the layout with names beside their values, as in Blender's own panels."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     return layout

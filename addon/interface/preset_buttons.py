@@ -59,5 +59,5 @@ def unregister() -> None:
 
 
 def _own_folder() -> str:
-    """The folder that holds `presets/reflection_mesh`."""
+    """Return the folder that contains `presets/reflection_mesh`."""
     return os.path.dirname(__file__)

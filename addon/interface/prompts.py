@@ -55,7 +55,8 @@ def state_of(updater) -> str:
 
 
 def _broken(_context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt | None:
-    """A result that nothing can update: converted, linked, or without its mirror or lamp."""
+    """Return a prompt for a result that cannot be updated, else None: converted, linked, or without its mirror or lamp.
+    """
     if obj is None or obj.reflection_mesh.role not in {"REFLECTION", "CAUSTICS"}:
         return None
     record = obj.reflection_mesh
@@ -90,7 +91,9 @@ def _why(context: bpy.types.Context, result: bpy.types.Object) -> str:
 
 
 def _shading(context: bpy.types.Context, _obj: bpy.types.Object | None) -> Prompt | None:
-    """A viewport that does not show results as renders do; the panel in the Properties editor knows of none."""
+    """Return a prompt for a 3D viewport that shows results differently from renders, else None. The Properties editor
+    has none.
+    """
     space = getattr(context, "space_data", None)
     if space is None or space.type != "VIEW_3D":
         return None
@@ -133,7 +136,7 @@ def _light(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt |
 
 
 def _missing_mirror(context: bpy.types.Context, obj: bpy.types.Object | None) -> Prompt | None:
-    """A scene without a mirror, and the button that makes the active object one."""
+    """Return a prompt for a scene without a mirror, with the button that makes the active object one; else None."""
     if (obj is not None and obj.reflection_mesh.role in RESULTS) or not has_mirror(context):
         return None
     return missing_mirror_prompt(obj if obj is not None and can_take_part(obj) else None)

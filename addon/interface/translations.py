@@ -10,7 +10,7 @@ OPERATORS = bpy.app.translations.contexts.operator_default
 
 
 def entries(language: dict) -> dict:
-    """What Blender asks for: each word in the contexts of labels and of operators, which it looks up apart."""
+    """Return the translations in the form that Blender needs: by (context, word), for labels and for operators."""
     return {(context, word): translation for word, translation in language.items() for context in ("*", OPERATORS)}
 
 

@@ -27,14 +27,14 @@ class CodedMaterials:
         self._dressed: dict = {}
 
     def dress(self, part: list, code: bpy.types.Material, textures: str = NEVER) -> None:
-        """Put one code on every face of the copies, but where their own materials are open."""
+        """Put one code on every face of the copies, except where their own materials are open."""
         for copy, _ in part:
             for index, slot in enumerate(copy.material_slots):
                 slot.material = self.on(self._copied.own[copy][index], code, textures)
 
     def on(self, material: bpy.types.Material | None, code: bpy.types.Material, textures: str = NEVER,
            by_side_alone: bool = False) -> bpy.types.Material:
-        """A code in place of a material, as `SeeThrough` takes it."""
+        """Return a material that shows `code` in place of `material`; arguments as in `SeeThrough`."""
         # a code that somebody has removed raises ReferenceError here
         key = (material, code.session_uid, textures, by_side_alone)
         if key not in self._dressed:
@@ -43,7 +43,7 @@ class CodedMaterials:
         return self._dressed[key]
 
     def black(self) -> bpy.types.Material:
-        """Hides what is behind and shows nothing."""
+        """Return a material that occludes and emits nothing."""
         return self._material("Black")[0]
 
     def position(self) -> bpy.types.Material:
@@ -125,7 +125,7 @@ class CodedMaterials:
         return material
 
     def _material(self, name: str):
-        """A material that emits black, the tree of its group of nodes, and its emission node."""
+        """Return a material that emits black, the tree of its node group, and its emission node."""
         group = bpy.data.node_groups.new(f"Code: {name}", "ShaderNodeTree")
         group.interface.new_socket("Surface", in_out="OUTPUT", socket_type="NodeSocketShader")
         emission, output = group.nodes.new("ShaderNodeEmission"), group.nodes.new("NodeGroupOutput")
@@ -150,13 +150,14 @@ class CodedMaterials:
         return node
 
     def _world_normal(self, tree: bpy.types.NodeTree, name: str) -> bpy.types.NodeSocket:
-        """The normal that the mesh carries as the attribute `name`, in world space, on the side that is seen; that of
-        its triangles where it carries none."""
+        """Return the attribute `name` of the mesh as a normal in world space, flipped to the visible side. Use the
+        triangle's normal if the attribute has no length.
+        """
         carried, seen = self._attribute(tree, name).outputs["Vector"], tree.nodes.new("ShaderNodeNewGeometry")
         none = tree.nodes.new("ShaderNodeMath")
         none.operation, none.inputs[1].default_value = "LESS_THAN", NO_LENGTH
         tree.links.new(_vector(tree, "LENGTH", carried).outputs["Value"], none.inputs[0])
-        # what has no length is no number once it is in world space
+        # a vector of zero length becomes NaN in world space
         some = _vector(tree, "ADD", carried, none.outputs["Value"])
         transform = tree.nodes.new("ShaderNodeVectorTransform")
         transform.vector_type, transform.convert_from, transform.convert_to = "NORMAL", "OBJECT", "WORLD"
@@ -203,7 +204,7 @@ def carry_normals(copied: CopiedScene) -> None:
 
 
 def _vector(tree: bpy.types.NodeTree, operation: str, *sources: bpy.types.NodeSocket) -> bpy.types.Node:
-    """A node that calculates with vectors."""
+    """Return a vector math node with `sources` as inputs."""
     node = tree.nodes.new("ShaderNodeVectorMath")
     node.operation = operation
     for source, socket in zip(sources, node.inputs):
@@ -212,7 +213,7 @@ def _vector(tree: bpy.types.NodeTree, operation: str, *sources: bpy.types.NodeSo
 
 
 def _glossy(tree: bpy.types.NodeTree) -> bpy.types.Node:
-    """A perfect mirror's shader."""
+    """Return the shader node of a perfect mirror."""
     glossy = tree.nodes.new("ShaderNodeBsdfAnisotropic")
     glossy.distribution = "GGX"
     glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)

@@ -1,4 +1,4 @@
-"""What the judge asks of Cycles: codes at the pixels' centres, and pictures."""
+"""Render with Cycles: codes at the pixels' centres, and pictures."""
 from __future__ import annotations
 
 import bpy
@@ -33,12 +33,14 @@ def prepare(scene: bpy.types.Scene, depth: int) -> None:
     cycles.caustics_reflective = True
     cycles.seed = 0
     cycles.max_bounces = 4 + depth
-    # as many reflections as the mesh follows: a mirror that is seen in the last one is black
+    # follow as many reflections as the mesh does: a mirror that is visible in the last one is black
     cycles.glossy_bounces = depth
 
 
 def render_codes(scene: bpy.types.Scene) -> Renders[np.ndarray]:
-    """What each pixel's centre shows, (height, width, 3) float32 from the lowest row up: one sample, no filter."""
+    """Return the codes at the pixels' centres, (height, width, 3) float32, rows from bottom to top. Use one sample and
+    no filter.
+    """
     cycles = scene.cycles
     cycles.samples, cycles.pixel_filter_type, cycles.filter_width = 1, "BOX", 0.01
     cycles.film_exposure = 1.0
@@ -51,7 +53,7 @@ def render_codes(scene: bpy.types.Scene) -> Renders[np.ndarray]:
 
 def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,
                    other_noise: bool = False) -> Renders[np.ndarray]:
-    """The picture in linear light, (height, width, 3) float32 from the lowest row up.
+    """Return the picture in linear light, (height, width, 3) float32, rows from bottom to top.
 
     With 0 samples, sampling, denoising, clamping, filter and bounces are those of the scene `user`.
     """
@@ -69,7 +71,7 @@ def render_picture(scene: bpy.types.Scene, samples: int, user: bpy.types.Scene,
 
 
 def take_settings(scene: bpy.types.Scene, user: bpy.types.Scene, names: tuple[str, ...] = LIGHT) -> None:
-    """Let a temporary scene follow light as that of the user does."""
+    """Copy the user's settings of light paths to a temporary scene."""
     for name in names:
         if hasattr(user.cycles, name):
             setattr(scene.cycles, name, getattr(user.cycles, name))

@@ -41,7 +41,7 @@ class CopiedScene:
     owned: list = field(default_factory=list)
 
     def light_up(self, world: bpy.types.World | None) -> None:
-        """Bring in what shines."""
+        """Add the lights and the world."""
         self.scene.world = world
         for light in set(still_there(self.lights)) - set(self.scene.collection.objects):
             self.scene.collection.objects.link(light)
@@ -101,10 +101,10 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
             continue
         if original.type == "LIGHT" and not instance.is_instance:
             copied.lights.append(original)
-        # what becomes a mesh, as text does, comes as that too
+        # text and similar objects appear as generated meshes too
         if evaluated.type != "MESH":
             continue
-        # what an instancer shows, but may not take part itself, stands by
+        # instances that may not take part themselves are bystanders
         there = not instance.is_instance or takes_part(original)
         part, index = part_of.get(owner, by) if there else by
         key = (evaluated.data.as_pointer(), part is copied.results)
@@ -121,13 +121,13 @@ def _copy_objects(context: bpy.types.Context, copied: CopiedScene, mirrors: list
 
 
 def _own_materials(copy: bpy.types.Object, result: bpy.types.Object | None) -> list:
-    """The materials of a copy by slot: those of its sources, if it is that of a `result`, whose light hides them."""
+    """Return the materials of a copy by slot. For a `result`, return those of its sources, which its light hides."""
     shown = [slot.material for slot in copy.material_slots] if result is None else list(result.data.materials)
     return shown + [None] * (len(copy.material_slots) - len(shown))
 
 
 def _rendered(context: bpy.types.Context) -> set:
-    """Objects of the view layer that are in renders: not hidden, in a collection that is not hidden."""
+    """Return the objects of the view layer that are rendered: neither they nor their collections are hidden."""
     found, waiting = set(), [context.view_layer.layer_collection]
     while waiting:
         branch = waiting.pop()
@@ -139,7 +139,7 @@ def _rendered(context: bpy.types.Context) -> set:
 
 
 def _mesh(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.types.Mesh:
-    """A mesh of its own with the modifiers applied; each face knows its number."""
+    """Return a separate mesh with modifiers applied; an attribute holds each face's number."""
     # with all layers Blender would evaluate the object anew, and of instances of raw geometry their instancer
     mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=False, depsgraph=depsgraph)
     stale = mesh.attributes.get("polygon_code")
@@ -151,7 +151,9 @@ def _mesh(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.ty
 
 
 def _placed(copied: CopiedScene, anchor: bpy.types.Object, data, matrix, slots: list) -> bpy.types.Object:
-    """An object at exactly `matrix`: through its parent's inverse, since location, rotation and scale hold no shear."""
+    """Link an object with exactly the transform `matrix`, using the parent's inverse, since location, rotation and
+    scale cannot represent shear.
+    """
     copy = bpy.data.objects.new("Copy", data)
     copied.owned.append(copy)
     copied.scene.collection.objects.link(copy)

@@ -39,7 +39,9 @@ class CodedTruth:
         show(copied.results, False)
 
     def mirror(self) -> Renders[tuple[np.ndarray, np.ndarray]]:
-        """Pixels (height, width) in which the eye sees a mirror, and those of them where Cycles bends the normal."""
+        """Return the pixels (height, width) in which the camera sees a mirror, and those of them where Cycles bends the
+        normal.
+        """
         self._codes.dress(self._copied.diffuse, self._black, BEFORE_MIRRORS)
         self._dress_mirrors(self._facing)
         facing = yield from cycles_render.render_codes(self._copied.scene)
@@ -47,9 +49,10 @@ class CodedTruth:
         return seen, seen & (facing[..., 0] - 2.0 < np.minimum(0.9 * (facing[..., 1] - 2.0), 0.01))
 
     def reflected(self, seen: np.ndarray, unrounded: bool = False) -> Generator[str | None, None, CodedPicture]:
-        """What the mirror shows in the pixels `seen`; `unrounded` hands Cycles normals that it does not round.
+        """Render the reflection in the pixels `seen` (height, width). Set `unrounded` to give Cycles normals that it
+        does not round.
 
-        Yields the name of each of its two renders before it, and nothing while Blender renders beside.
+        Yields the name of each of its two renders before it, and None while Blender renders.
         """
         if unrounded and self._unrounded is None:
             cycles_codes.carry_normals(self._copied)
@@ -64,14 +67,14 @@ class CodedTruth:
         return decode(identity, position, self._codes.origin, seen, face_start=0)
 
     def end(self) -> None:
-        """Mirrors are seen by the camera as they were; diffuse objects and mirrors are black."""
+        """Make mirrors visible to the camera as they were, and diffuse objects and mirrors black."""
         for copy, _ in self._copied.mirrors:
             copy.visible_camera = self._shown_camera[copy]
         self._codes.dress(self._copied.diffuse, self._black, BEFORE_MIRRORS)
         self._dress_mirrors(self._black)
 
     def _dress_mirrors(self, code: bpy.types.Material) -> None:
-        """Put a code on the faces that reflect; what else the mirrors have is black, or looked through."""
+        """Put a code on the reflecting faces. Other faces of the mirrors become black or transparent."""
         for copy, _ in self._copied.mirrors:
             for index, slot in enumerate(copy.material_slots):
                 own = self._copied.own[copy][index]
@@ -106,7 +109,8 @@ def mirror_all(copied: CopiedScene, material: bpy.types.Material) -> None:
 
 
 def _slots_on_faces(copy: bpy.types.Object) -> list:
-    """The material slots that a copy's faces have; as in Blender, the last one where there are too few."""
+    """Return the material slots that a copy's faces use. As in Blender, indices that are too large mean the last slot.
+    """
     used = np.zeros(len(copy.data.polygons), dtype=np.int32)
     copy.data.polygons.foreach_get("material_index", used)
     return np.unique(used.clip(0, len(copy.material_slots) - 1)).tolist()
@@ -119,7 +123,7 @@ def show(part: list, visible: bool) -> None:
 
 
 def lowest_corner(copied: CopiedScene) -> tuple:
-    """A corner below all diffuse objects."""
+    """Return a corner below and left of all diffuse objects."""
     copied.scene.view_layers[0].update()
     corners = [np.array(copy.bound_box) @ np.array(copy.matrix_world)[:3, :3].T + np.array(copy.matrix_world)[:3, 3]
                for copy, _ in copied.diffuse]
@@ -127,7 +131,9 @@ def lowest_corner(copied: CopiedScene) -> tuple:
 
 
 def polygons(context: bpy.types.Context, diffuse: list) -> list:
-    """The polygon of each triangle of each diffuse object; None where it instances others and counts their faces."""
+    """Return the polygon of each triangle of each diffuse object; None for objects with instances, whose faces are
+    numbered consecutively.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     tables = []
     for obj in diffuse:
@@ -143,7 +149,7 @@ def polygons(context: bpy.types.Context, diffuse: list) -> list:
 
 
 def decode(identity: np.ndarray, position: np.ndarray, origin: tuple, where, face_start: int) -> CodedPicture:
-    """0: nothing, 1: a mirror, from 2 on: a diffuse object."""
+    """Decode a render. Codes are 0 for nothing, 1 for a mirror, and 2 or more for diffuse objects."""
     code = np.where(where, np.rint(identity[..., 0]).astype(np.int64), 0)
     source = np.select([code == 0, code == 1], [NOTHING, ITSELF], code - 2)
     face = np.rint(identity[..., 1]).astype(np.int64) - face_start

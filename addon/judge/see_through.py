@@ -12,7 +12,7 @@ import bpy
 from ..reading.materials import all_nodes, feeding, is_opaque, is_sharp, one_output
 from ..writing.nodes.shader_builder import ShaderBuilder, given, node_behind
 
-HALF = 0.5  # of the light: a surface that lets more through is open
+HALF = 0.5  # share of the light; a surface that transmits more counts as open
 GLASS = {"BSDF_GLASS", "BSDF_REFRACTION"}
 ALWAYS, BEFORE_MIRRORS, NEVER = "ALWAYS", "BEFORE_MIRRORS", "NEVER"
 """Places in which glass and textures let a ray through: on all of its way, before a mirror, or nowhere.
@@ -54,15 +54,15 @@ class SeeThrough:
                 made.node_tree.links.remove(link)
         build = ShaderBuilder(made.node_tree)
         surface = output.inputs["Surface"]
-        # what has no surface is fog
+        # a material without a surface is fog
         build.feed(self._shown(build, surface) if surface.is_linked else self._open(build), surface)
         return made
 
     def _shown(self, build: ShaderBuilder, socket: bpy.types.NodeSocket,
                textured: bool = False) -> bpy.types.NodeSocket:
-        """The output that stands in place of the shader behind a socket.
+        """Return the output that replaces the shader linked to a socket.
 
-        `textured` shaders are there at some places and not at others.
+        Set `textured` for shaders that are present only at some places.
         """
         node = node_behind(socket)
         if node is None or node.mute:
@@ -114,14 +114,14 @@ class SeeThrough:
 
     def _chosen(self, build: ShaderBuilder, share, first: bpy.types.NodeSocket,
                 second: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """The second of two shaders where it has more than half a share, else the first."""
+        """Return the second of two shaders where its share is above one half, else the first."""
         return build.mixed(build.calculated("GREATER_THAN", share, HALF), first, second)
 
     def _coded(self, build: ShaderBuilder) -> bpy.types.NodeSocket:
         return build.add("ShaderNodeGroup", node_tree=self._code).outputs[0]
 
     def _open(self, build: ShaderBuilder, textured: bool = False) -> bpy.types.NodeSocket:
-        """An opening, or, where it is `textured` and that does not count, the code."""
+        """Return an opening. If it is `textured` and textures do not count, return the code."""
         if textured and self._textures == NEVER:
             return self._coded(build)
         clear = build.add("ShaderNodeBsdfTransparent")
@@ -133,7 +133,7 @@ class SeeThrough:
 
 
 def _source(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-    """The output that feeds a socket, past reroutes."""
+    """Return the output that feeds a socket, ignoring reroutes."""
     source = socket.links[0].from_socket
     while source.node.type == "REROUTE":
         source = source.node.inputs[0].links[0].from_socket

@@ -9,13 +9,13 @@ from ..reading import read_view
 
 
 def read_eye(context: bpy.types.Context, of_viewport: bool) -> View:
-    """The view of the scene's camera; or, where it is to be that `of_viewport`, of the largest 3D viewport that shows
-    the scene, which is the camera's again while that looks through the camera.
+    """Return the view of the scene's camera. If `of_viewport`, return the view of the largest 3D viewport of the scene,
+    which is the camera's while it looks through the camera.
 
     Raises
     ------
     ReflectionError
-        As `read_view`.
+        See `read_view`.
     """
     region = largest_viewport(context) if of_viewport else None
     if region is None or region[0].view_perspective == "CAMERA":
@@ -24,7 +24,7 @@ def read_eye(context: bpy.types.Context, of_viewport: bool) -> View:
 
 
 def view_of(region_3d: bpy.types.RegionView3D, size: tuple[int, int]) -> View:
-    """The view through a 3D viewport of so many pixels."""
+    """Return the view through a 3D viewport with the given number of pixels."""
     placement = np.array(region_3d.view_matrix, dtype=np.float64)
     try:
         placement = np.linalg.inv(placement)
@@ -42,7 +42,7 @@ def view_of(region_3d: bpy.types.RegionView3D, size: tuple[int, int]) -> View:
 
 
 def largest_viewport(context: bpy.types.Context) -> tuple | None:
-    """The largest 3D viewport of the scene, as its view and its size in pixels; None where there is none."""
+    """Return the view and the size in pixels of the largest 3D viewport of the scene; None if there is none."""
     found, most = None, 0
     for window in context.window_manager.windows:
         if window.scene != context.scene:

@@ -1,4 +1,4 @@
-"""The results that follow what moves: how each does, and the work on that which is under way, a turn at each look."""
+"""Move the vertices of results along with moving objects, a time slice at a time."""
 from __future__ import annotations
 
 import time
@@ -17,16 +17,16 @@ from .work import Work
 
 
 class Following:
-    """Lets the vertices of results follow, all of them or none.
+    """Moves the vertices of results, of all or of none.
 
     Attributes
     ----------
     tracks : list of Track
-        How results are followed; empty where they are not.
+        The tracked results; empty if they cannot be tracked.
     record : Record or None
-        What they show, as soon as they have followed.
+        Inputs that the results show after the last update.
     seconds, turns : float, int
-        What that took.
+        Duration of that update, and its number of time slices.
     """
 
     def __init__(self) -> None:
@@ -39,18 +39,18 @@ class Following:
 
     @property
     def is_under_way(self) -> bool:
-        """Whether there is work to go on with."""
+        """True if an update is in progress."""
         return self._under_way is not None
 
     def forget(self) -> None:
-        """Follow no more."""
+        """Stop tracking."""
         under_way, self._under_way = self._under_way, None
         if under_way is not None:
             under_way[0].close()
         self.tracks, self._meshes = [], {}
 
     def learn(self, work: Work) -> None:
-        """Begin to find out how the results that were written just now can be followed."""
+        """Start to prepare tracking of the results that were just written."""
         self.forget()
         wanted = []
         for outcome in work.outcomes:
@@ -67,9 +67,9 @@ class Following:
         self._under_way = InTurns(lambda: [track() for track in wanted]), self._learned
 
     def begin(self, context: bpy.types.Context, current: Watched, shown: Record | None, started: float) -> bool:
-        """Begin to follow from what the results show to what there is; whether that is possible.
+        """Start an update from the inputs `shown` to the `current` ones. Return True if that is possible.
 
-        `started` is when whoever asks began to look, which counts as a part of it.
+        `started` is the time at which the caller began to look; it counts as part of the update.
         """
         wanted = {one.mirror.session_uid for group in current.chosen for one in group.assemblies}
         if shown is None or not self.tracks or {track.mirror for track in self.tracks} != wanted:
@@ -89,8 +89,9 @@ class Following:
         return True
 
     def go_on(self, context: bpy.types.Context) -> str:
-        """A turn of the work: "working", or "followed"; "lost" where results have changed meanwhile; "" where it is
-        known how to follow."""
+        """Run one time slice. Return "working", "followed" when done, "lost" if results have changed meanwhile, or ""
+        if only the preparation is complete.
+        """
         turns, then = self._under_way
         if not turns.go_on():
             return "working"
@@ -103,7 +104,7 @@ class Following:
         return ""
 
     def _followed(self, record: Record, meshes: dict, context: bpy.types.Context, turns: InTurns) -> str:
-        """Write where the results have gone."""
+        """Write the new positions of the results."""
         started, objects = time.perf_counter(), _results(context)
         if not self._fits(objects, meshes):
             return "lost"
@@ -113,7 +114,7 @@ class Following:
         return "followed"
 
     def _fits(self, objects: dict, meshes: dict) -> bool:
-        """Whether all can follow to these meshes; where they cannot, they are not followed any more."""
+        """Return True if all results can be updated to these meshes. Otherwise stop tracking."""
         fits = all(track.fits(objects, *meshes[track.mirror]) for track in self.tracks)
         if not fits:
             self.tracks = []
@@ -121,12 +122,12 @@ class Following:
 
 
 def _results(context: bpy.types.Context) -> dict:
-    """The results of the scene by their `session_uid`."""
+    """Return the results of the scene by their `session_uid`."""
     return {obj.session_uid: obj for obj in known_results(context.scene, context.view_layer)}
 
 
 def _read(context: bpy.types.Context, current: Watched) -> dict:
-    """The meshes of each mirror and of what it shows, by the mirror's `session_uid`."""
+    """Return the meshes of each mirror and of its sources, by the mirror's `session_uid`."""
     depsgraph = context.evaluated_depsgraph_get()
     meshes = {}
     for group in current.chosen:

@@ -1,4 +1,4 @@
-"""What Live keeps right: the results of a scene, those that show the same objects together."""
+"""The results of a scene that Live keeps up to date, grouped by the objects that they show."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -21,20 +21,20 @@ from ..reading import (
 
 
 def kept_results(context: bpy.types.Context) -> list:
-    """The results of the scene that are made anew when something moves."""
+    """Return the results of the scene that are updated when something moves."""
     known = known_results(context.scene, context.view_layer)
     return [obj for obj in _made_here(known) if not lost_mirror(obj)
             and obj in results_of(context, obj.reflection_mesh.mirror, known)]
 
 
 def abandoned_results(context: bpy.types.Context) -> list:
-    """The results of the scene that nothing makes anew, since their mirror is gone."""
+    """Return the results of the scene that cannot be updated because their mirror is deleted."""
     known = known_results(context.scene, context.view_layer)
     return [obj for obj in _made_here(known) if obj.library is None and lost_mirror(obj)]
 
 
 def abandoned_light(context: bpy.types.Context) -> list:
-    """As `abandoned_results`, of the light whose mirror or lamp is gone."""
+    """Return the caustics that cannot be updated because their mirror or lamp is deleted."""
     return [obj for obj in kept_light(context)
             if is_gone(obj.reflection_mesh.mirror) or is_gone(obj.reflection_mesh.lamp)]
 
@@ -44,13 +44,13 @@ def _made_here(known: list) -> list:
 
 
 def kept_light(context: bpy.types.Context) -> list:
-    """The light that mirrors of the scene throw, as far as it can be changed."""
+    """Return the caustics of the scene that can be changed."""
     return [obj for obj in known_results(context.scene, context.view_layer) if obj.reflection_mesh.role == "CAUSTICS"
             and obj.type == "MESH" and obj.library is None and not plays(obj)]
 
 
 def groups(context: bpy.types.Context) -> list[Participants]:
-    """The mirrors and objects of these results; what is hidden takes no part."""
+    """Return the mirrors and objects of these results, grouped; hidden ones do not take part."""
     found: dict = {}
     for obj in kept_results(context):
         mirrors, sources = mirrors_of(obj), _sources(obj)
@@ -69,7 +69,7 @@ def groups(context: bpy.types.Context) -> list[Participants]:
 
 
 def why_not_kept(context: bpy.types.Context, result: bpy.types.Object) -> str:
-    """The sentence that says why one of the kept results cannot be made anew now; empty where it can be."""
+    """Return a sentence on why a result cannot be updated now; "" if it can."""
     try:
         visible(context, mirrors_of(result), list(_sources(result)))
     except ReflectionError as error:

@@ -24,7 +24,7 @@ updater: LiveUpdater | None = None
 
 
 def present() -> LiveUpdater | None:
-    """What keeps the results of the file right at the moment; None where Live is off."""
+    """Return the object that updates the results of the file; None if Live is off."""
     return updater
 
 
@@ -38,7 +38,7 @@ def start(of_viewport: bool) -> None:
 
 
 def stop() -> None:
-    """End, with all results as they are."""
+    """Stop Live. Results stay as they are."""
     global updater
     if updater is not None:
         updater.forget()
@@ -49,7 +49,7 @@ def stop() -> None:
 
 
 def is_busy() -> bool:
-    """Whether a render, a bake or an operator of this extension is at work."""
+    """Return True while a render, a bake or an operator of this extension is running."""
     if any(map(bpy.app.is_job_running, JOBS)):
         return True
     return any(operator.bl_idname.startswith("REFLECTION_MESH_OT_")
@@ -57,7 +57,7 @@ def is_busy() -> bool:
 
 
 def _tick() -> float | None:
-    """Called by the timer; when it is called next."""
+    """Do one step; called by the timer. Return the seconds until the next call."""
     if updater is None:
         return None
     if is_busy():
@@ -91,7 +91,7 @@ def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Non
 
 
 def _own(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set:
-    """Results and their meshes, which Live itself writes."""
+    """Return results and their meshes, which Live writes itself."""
     results = set(known_results(scene, layer))
     return results | {obj.data for obj in results}
 
@@ -102,7 +102,7 @@ def _is_camera(changed: bpy.types.ID) -> bool:
 
 @persistent
 def _before_other_data(*_) -> None:
-    """Before undo and redo, which exchange what is pointed to."""
+    """Release data before undo and redo, which replace it."""
     if updater is not None:
         updater.forget()
 
@@ -115,7 +115,7 @@ def _after_other_data(*_) -> None:
 
 @persistent
 def _before_opening(*_) -> None:
-    """Another file begins without Live."""
+    """Switch Live off before another file opens."""
     stop()
 
 

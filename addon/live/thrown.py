@@ -22,8 +22,9 @@ BUDGET = 0.05   # seconds of work between two looks at what has changed
 
 
 class Group(NamedTuple):
-    """What is made together: the light of `pairs` of a mirror and a lamp that falls on the same objects; None where
-    these or all mirrors are hidden."""
+    """Caustics that are made together: all `pairs` (mirror, lamp) whose light falls on the same objects. `chosen` is
+    None if these objects or all mirrors are hidden.
+    """
 
     pairs: set
     chosen: Participants | None
@@ -31,8 +32,9 @@ class Group(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What the light is made from, without anything of Blender's, which may go: of each group digests, the settings
-    and who takes part."""
+    """The inputs of caustics without references to Blender's data, which may be removed: digests, settings and
+    participants of each group.
+    """
 
     digests: tuple
     settings: tuple
@@ -41,7 +43,7 @@ class Record(NamedTuple):
 
 @dataclass
 class Work:
-    """The making of all groups, one after another, a little at a time."""
+    """The generation of all groups, one after another, in time slices."""
 
     record: Record
     exact: bool
@@ -50,38 +52,38 @@ class Work:
 
 
 class ThrownLight:
-    """Keeps the caustics of a scene right, as `LiveUpdater` its reflections.
+    """Keeps the caustics of a scene up to date, as `LiveUpdater` does for reflections.
 
     Attributes
     ----------
     at_rest, is_there : bool
-        Whether all is as it is to be, and whether there is any.
+        True if everything is up to date; True if there are caustics.
     told : str
-        What went wrong; empty where nothing did.
+        Message on what went wrong; empty if nothing did.
     seconds : float
-        What the last update took.
+        Duration of the last update.
     """
 
     def __init__(self) -> None:
         self.at_rest, self.is_there, self.told, self.seconds = False, False, "", 0.0
         self._pace, self._noted, self._changed = Pace(), True, 0.0
-        self._shown: Record | None = None   # what the light is made from that is seen, where it is exact
-        self._coarse: Record | None = None  # the same where it is coarse
-        self._looked: Record | None = None  # what was found at the last look
+        self._shown: Record | None = None   # inputs of the shown caustics, if these are exact
+        self._coarse: Record | None = None  # inputs of the shown caustics, if these are coarse
+        self._looked: Record | None = None  # inputs found at the last look
         self._work: Work | None = None
 
     def note(self) -> None:
-        """Something may have changed."""
+        """Note that something may have changed."""
         self._noted = True
 
     def forget(self) -> None:
-        """Let go of all that is Blender's and of what is known of the file."""
+        """Release Blender's data and everything that is known of the file."""
         self._drop()
         self._shown = self._coarse = self._looked = None
         self._noted, self.at_rest = True, False
 
     def step(self, context: bpy.types.Context, now: float) -> str:
-        """Work a little; returns what was done: "coarse", "exact", "working", or "" for nothing."""
+        """Do one step. Return "coarse" or "exact" after an update, "working", or "" if there was nothing to do."""
         if context.mode != "OBJECT":
             self._drop()
             return ""
@@ -100,7 +102,7 @@ class ThrownLight:
             return ""
 
     def _look(self, context: bpy.types.Context, now: float) -> None:
-        """How all stands now."""
+        """Compare the present inputs with those shown."""
         self._noted, groups = False, light_groups(context)
         self.is_there = bool(groups)
         if not groups:
@@ -109,15 +111,15 @@ class ThrownLight:
             return
         record = _record(context, groups)
         if record != self._looked:
-            # what Live begins with is made exact at once
+            # update exactly at once when Live starts
             self._changed = now if self._looked is not None else now - PAUSE
-            # coarse light is finished, to be seen at all
+            # finish coarse caustics, since otherwise none would ever be shown
             if self._work is not None and (self._work.exact or record.members != self._work.record.members):
                 self._drop()
         self._looked, self.at_rest = record, record == self._shown
 
     def _begin(self, context: bpy.types.Context, now: float) -> bool:
-        """Begin new light, coarse while something moves; whether any is wanted."""
+        """Start new caustics, coarse ones while something moves. Return True if any are needed."""
         rests = now - self._changed >= PAUSE
         if not rests and self._coarse == self._looked:
             return False
@@ -157,7 +159,7 @@ class ThrownLight:
 
 
 def light_groups(context: bpy.types.Context) -> list[Group]:
-    """The caustics of the scene that are made anew, those on the same objects together."""
+    """Return the caustics of the scene that are updated, grouped by the objects on which they fall."""
     layer, found = set(context.view_layer.objects), {}
     for obj in context.scene.objects:
         record = obj.reflection_mesh
@@ -200,7 +202,7 @@ def _record(context: bpy.types.Context, groups: list[Group]) -> Record:
 
 def made_anew(context: bpy.types.Context, group: Group, settings: dict[bpy.types.Object, Settings],
               exact: bool = True) -> Steps[None]:
-    """Make a group's light; of pairs that throw none at the moment, the mesh is empty."""
+    """Make the caustics of a group. Pairs that cast none at the moment get an empty mesh."""
     dark = group.pairs
     if group.chosen is not None and group.lamps:
         mirrors = list(dict.fromkeys(mirror for mirror, _ in group.pairs))
@@ -227,6 +229,6 @@ def made_anew(context: bpy.types.Context, group: Group, settings: dict[bpy.types
 
 
 def _forget_removed(sources: bpy.types.bpy_prop_collection) -> None:
-    """Take out of what a record says is lit that which is there no more."""
+    """Remove deleted objects from the lit objects in a record."""
     for index in reversed([number for number, source in enumerate(sources) if source.object is None]):
         sources.remove(index)

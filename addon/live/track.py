@@ -1,4 +1,4 @@
-"""One result on the way: its faces stay, and its vertices follow what moves."""
+"""One result during movement: its faces stay, and its vertices are updated."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -17,16 +17,16 @@ ATTRIBUTES = ("reflected_position", "mirror_position", "path_length")
 
 
 class Written(NamedTuple):
-    """Objects that show one result, without anything of Blender's, which may go.
+    """Objects that show one result, without references to Blender's data, which may be removed.
 
     Attributes
     ----------
     results : tuple of int
-        `session_uid` of the result and of its copies: what has a name may be renamed, and what is pointed to may go.
+        `session_uid` of the result and of its copies. Names and references could become invalid.
     vertices : tuple of int
-        How many each has.
+        Number of vertices of each.
     mirror : int
-        The same of the mirror.
+        `session_uid` of the mirror.
     placement : str
     """
 
@@ -43,18 +43,18 @@ class Written(NamedTuple):
 
 @dataclass(frozen=True)
 class Track:
-    """A result as it was written last, and what its vertices show.
+    """A result as it was written last, with the source points of its vertices.
 
     Attributes
     ----------
     shown : Written
-        What shows it.
+        Objects that show it.
     origin : (3,) float64
-        From where the positions of the mesh are told.
+        World position to which the mesh's positions are relative.
     images : core.FollowedImages
-        Of its vertices.
+        Source points of the vertices.
     triangles : (int, int)
-        How many the mirror and the scene have.
+        Number of triangles of the mirror and of the scene.
     """
 
     shown: Written
@@ -64,14 +64,15 @@ class Track:
 
     @property
     def mirror(self) -> int:
-        """The mirror's `session_uid`."""
+        """`session_uid` of the mirror."""
         return self.shown.mirror
 
     @classmethod
     def of(cls, shown: Written, result: ReflectionMesh, view: View, mirror: TriangleMesh, scene: TriangleMesh
            ) -> Track | None:
-        """The way of a result that was written just now; None where it cannot be followed: it shows mirrors in mirrors,
-        or points. Works on arrays alone."""
+        """Track a result that was just written. Return None if it cannot be tracked because it shows mirrors in
+        mirrors, or points. Use arrays only.
+        """
         if result.discs is not None or (result.bounces > 1).any():
             return None
         result, origin = vertices_written(result, mirror, view)
@@ -81,19 +82,20 @@ class Track:
         return cls(shown, origin, images, (len(mirror.triangles), len(scene.triangles)))
 
     def fits(self, objects: dict, mirror: TriangleMesh, scene: TriangleMesh) -> bool:
-        """Whether the results, by their `session_uid`, are still those that were written, and what they show has not
-        changed but for its place."""
+        """Return True if the results in `objects` (by `session_uid`) are those that were written, and mirror and scene
+        have the same number of triangles.
+        """
         results = [objects.get(uid) for uid in self.shown.results]
         return (all(obj is not None and len(obj.data.vertices) == self.images.source.size
                     and applied_to(obj) == Matrix.Identity(4) for obj in results)
                 and (len(mirror.triangles), len(scene.triangles)) == self.triangles)
 
     def seen(self, view: View, mirror: TriangleMesh, scene: TriangleMesh) -> Followed:
-        """Where the view sees the vertices now; works on arrays alone."""
+        """Compute where the view sees the vertices now. Use arrays only."""
         return self.images.seen(view, mirror, scene, self.shown.placement)
 
     def written(self, objects: dict, now: Followed) -> Track:
-        """The results, by their `session_uid` among `objects`, with their vertices where these are seen now."""
+        """Write the positions `now` into the vertices of the results in `objects` (by `session_uid`)."""
         results = [objects[uid] for uid in self.shown.results]
         for mesh in {obj.data for obj in results}:
             _write(mesh, "position", now.positions - self.origin)

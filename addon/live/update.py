@@ -1,4 +1,4 @@
-"""Make what is stale anew, with one click and whatever is selected; what was lit is lit again."""
+"""Update all stale results with one click, whatever is selected. Results that were lit are lit again."""
 import time
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ from ..settings import Wanted
 from .kept import abandoned_light, abandoned_results, groups, kept_light, kept_results, why_not_kept
 from .thrown import light_groups, made_anew
 
-GENERATING = 0.3    # of the work, where results are lit again
+GENERATING = 0.3    # share of the work if results are lit again
 NOTHING_STALE = "No reflection is stale."
 
 
@@ -62,13 +62,15 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
             told.append(replace(outcome, unlit=[]).summary(time.perf_counter() - started))
             remarks += outcome.remarks
         yield from self._light(context, thrown)
-        # what was generated anew has lost light that no longer fits
+        # new results have lost light that no longer fits
         unlit = [obj for obj in lit if obj in outdated or not is_lit(obj)]
         remarks += yield from part(self._relight(context, unlit, told), share, 1.0 - share)
         tell_done(self, told + [self._summary(thrown)] * bool(thrown), remarks)
 
     def _relight(self, context: bpy.types.Context, results: list, told: list) -> Steps[list]:
-        """Light results as they were lit, adding to what is told; return sentences on what kept some from it."""
+        """Light results with the settings of the last time. Append to `told`; return sentences on results that could
+        not be lit.
+        """
         if not results:
             return []
         started = time.perf_counter()
@@ -80,7 +82,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
         return []
 
     def _light(self, context: bpy.types.Context, lit: list) -> Steps[None]:
-        """Make the light anew that is stale, with all that falls on the same objects."""
+        """Update stale caustics, together with others on the same objects."""
         pairs, wanted = {(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp) for obj in lit}, Wanted(context.scene)
         for group in light_groups(context):
             if pairs & group.pairs:
@@ -93,7 +95,7 @@ class REFLECTION_MESH_OT_update(SteppedOperator, bpy.types.Operator):
 
 
 def _lost(context: bpy.types.Context) -> dict:
-    """What nothing makes anew, since its mirror or its lamp is gone, and what is to be said of that."""
+    """Return the results that cannot be updated because their mirror or lamp is deleted, with a message on each."""
     found = {obj: why_stale(context, obj) for obj in abandoned_results(context)}
     return found | {obj: why_light_is_stale(context, obj) for obj in abandoned_light(context)}
 

@@ -1,4 +1,5 @@
-"""The heart of Live: told of changes, asked to work every now and then, by a clock that is given."""
+"""The state machine of Live. It is notified of changes, does one step at each call, and gets the time from the caller.
+"""
 from __future__ import annotations
 
 import time
@@ -19,26 +20,26 @@ from .work import Work
 PAUSE = 0.25    # seconds without a change after which what is shown is made exact
 WAITS = "Live waits for Object Mode."
 NOTHING_YET = "Generate a reflection first."
-LONG = 0.5      # seconds that vertices follow before new results are begun on the way, and
-REST = 4.0      # how many times what these take
+LONG = 0.5      # seconds of moving vertices before new results are started during movement, and
+REST = 4.0      # factor of the duration of new results
 
 
 class LiveUpdater:
-    """Keeps the results of a scene right: reflections here, and light that mirrors throw by `thrown`.
+    """Keeps the results of a scene up to date: reflections here, caustics in `thrown`.
 
-    `note` is told that something may have changed; `step`, asked every now and then, finds out what, and works a
-    little. Between two steps it holds nothing of Blender's but the work that is under way, which `forget` ends.
+    `note` reports that something may have changed. `step` is called repeatedly; it finds the change and does a part of
+    the work. Between two steps it refers to Blender's data only in the work in progress, which `forget` ends.
 
     Attributes
     ----------
     of_viewport : bool
-        Whether results are right for the 3D viewport's view.
+        True if results are made for the 3D viewport's view.
     milliseconds : float
-        What the last update took.
+        Duration of the last update.
     thrown : ThrownLight
     following : Following
     updates : dict of str to int
-        How many there were: `followed`, `coarse` and `exact`.
+        Number of updates by kind: `followed`, `coarse` and `exact`.
     """
 
     def __init__(self, of_viewport: bool = False) -> None:
@@ -48,32 +49,32 @@ class LiveUpdater:
         self.updates = {"followed": 0, "coarse": 0, "exact": 0}
         self._pace = Pace()
         self._noted = self._moved = True
-        self._record: Record | None = None  # what the results show
-        self._looked: Record | None = None  # what was found at the last look
-        self._changed = 0.0                 # when that was another thing than before
+        self._record: Record | None = None  # inputs that the results show
+        self._looked: Record | None = None  # inputs found at the last look
+        self._changed = 0.0                 # time of the last change of these
         self._work: Work | None = None
-        self._moving: float | None = None   # since when vertices have followed
+        self._moving: float | None = None   # time since when vertices have followed
         self._took = 0.0                    # seconds that the last new results took
 
     @property
     def told(self) -> str:
-        """What keeps it from working, or what went wrong; empty where nothing does."""
+        """Message on what prevents updates or went wrong; empty if nothing does."""
         only_light = self._told == NOTHING_YET and self.thrown.is_there
         return self.thrown.told or ("" if only_light else self._told)
 
     @property
     def at_rest(self) -> bool:
-        """Whether all is as it is to be."""
+        """True if all results are up to date."""
         return self._rests and self.thrown.at_rest
 
     def note(self, moved: bool = True) -> None:
-        """Something may have changed: the view alone, or, where it `moved`, what mirrors or is reflected."""
+        """Note that something may have changed: the view only, or, if `moved`, a mirror or a reflected object."""
         self._noted, self._moved = True, self._moved or moved
         if moved:
             self.thrown.note()
 
     def forget(self) -> None:
-        """Let go of all that is Blender's and of what is known of the file, which may be another one now."""
+        """Release Blender's data and everything that is known of the file, which may be replaced."""
         self._drop_work()
         self.following.forget()
         self._record, self._looked, self._rests = None, None, False
@@ -81,7 +82,9 @@ class LiveUpdater:
         self.note()
 
     def step(self, context: bpy.types.Context, now: float) -> str:
-        """Work a little; returns what was done: "followed", "coarse", "exact", "working", or "" for nothing."""
+        """Do one step. Return "followed", "coarse" or "exact" after an update, "working", or "" if there was nothing to
+        do.
+        """
         try:
             done = self._step(context, now)
         except ReflectionError as error:
@@ -125,7 +128,7 @@ class LiveUpdater:
         return self._go_on(context, view, now)
 
     def _look(self, context: bpy.types.Context, view: View, now: float) -> Watched | None:
-        """How all stands now; None where there is nothing to keep right."""
+        """Return the present inputs; None if there are no results to update."""
         current = watched(context, view, None if self._moved else self._looked)
         self._noted = self._moved = False
         if not current.chosen:
@@ -136,14 +139,14 @@ class LiveUpdater:
             return None
         self._told = ""
         if not current.record.same(self._looked):
-            # what Live begins with is made exact at once
+            # update exactly at once when Live starts
             self._changed = now if self._looked is not None else now - PAUSE
             self._rests = False
         self._looked = current.record
         return current
 
     def _change(self, context: bpy.types.Context, current: Watched, now: float, started: float) -> str:
-        """The results show something else than what there is."""
+        """React to inputs that differ from those shown."""
         work = self._work
         if work is not None and not current.record.same(work.record) and (
                 not work.on_the_way or current.record.members != work.record.members):
@@ -155,7 +158,7 @@ class LiveUpdater:
         return self._go_on(context, current.view, now)
 
     def _begin(self, context: bpy.types.Context, current: Watched, now: float) -> None:
-        """Begin new results: coarse ones, or exact ones where nothing moves."""
+        """Start new results: coarse ones, or exact ones if nothing moves."""
         settings, on_the_way = current.record.settings, now - self._changed < PAUSE
         if on_the_way:
             settings = {mirror: replace(own, tolerance=self._pace.coarse(own.tolerance))
@@ -163,7 +166,7 @@ class LiveUpdater:
         self._work = Work.of(context, current, settings, on_the_way)
 
     def _go_on_following(self, context: bpy.types.Context, now: float) -> str:
-        """A turn of the vertices' way; what else there is to do when they have arrived."""
+        """Advance the update of the vertices by one time slice. Finish the update at the end."""
         done = self.following.go_on(context)
         if done == "lost":
             self._noted = self._moved = True
@@ -184,7 +187,7 @@ class LiveUpdater:
         return "followed"
 
     def _go_on(self, context: bpy.types.Context, view: View, now: float) -> str:
-        """Some work on the next results."""
+        """Work on the next results."""
         work = self._work
         if not work.go_on():
             return "working"
@@ -213,7 +216,7 @@ class LiveUpdater:
             work.close()
 
     def _give_up(self, told: str) -> str:
-        """Nothing can be done before the next change."""
+        """Wait for the next change, since nothing can be done before it."""
         self._drop_work()
         self.following.forget()
         self._record, self._looked, self._rests, self._told = None, None, True, told

@@ -1,4 +1,4 @@
-"""What Live's results depend on, as it stands now: equal where nothing has changed that they show."""
+"""The present inputs of Live's results. They compare equal if nothing visible has changed."""
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -14,22 +14,22 @@ from .kept import groups, kept_results
 
 
 class Record(NamedTuple):
-    """What an update is made from, without anything of Blender's, which may go.
+    """The inputs of an update without references to Blender's data, which may be removed.
 
     Attributes
     ----------
     view : tuple of float
     settings : dict of int to Settings
-        Of each mirror, by its `session_uid`.
+        Settings of each mirror, by its `session_uid`.
     digests : tuple of (str, str, str, bool)
-        Of each mirror, its sources, which materials these show, and whether the camera looks through one.
+        For each mirror: digests of the mirror, of its sources and of their materials, and True if the camera looks
+        through a source.
     colours : tuple of (str or None)
-        Of what the materials are made of, where a result shows previews of them.
+        For each mirror: digest of the contents of materials if a result shows previews, else None.
     members : tuple
-        Who takes part, by `session_uid`: the camera, whose results they are; these, copies among them; of each group
-        its mirrors and its sources.
+        Participants by `session_uid`: the camera; the results and their copies; mirrors and sources of each group.
     lines : bool
-        Whether lines are drawn.
+        True if lines are drawn.
     """
 
     view: tuple[float, ...]
@@ -40,7 +40,7 @@ class Record(NamedTuple):
     lines: bool
 
     def same(self, other: Record | None) -> bool:
-        """Whether both tell of the same, but for rounding."""
+        """Return True if both records are equal except for rounding."""
         return (other is not None and self.settings == other.settings and self.digests == other.digests
                 and self.members == other.members and self.lines == other.lines
                 and same_view(self.view, other.view)
@@ -48,7 +48,7 @@ class Record(NamedTuple):
 
 
 class Watched(NamedTuple):
-    """Everything that an update is made from: the view, who takes part, and the record of it."""
+    """Everything that an update uses: the view, the participants, and the record of the inputs."""
 
     view: View
     chosen: list[Participants]
@@ -56,8 +56,9 @@ class Watched(NamedTuple):
 
 
 def watched(context: bpy.types.Context, view: View, known: Record | None = None) -> Watched:
-    """What the results of the scene are made from, seen by `view`; mirrors and objects are as `known` where that is
-    given."""
+    """Return the present inputs of the scene's results, seen from `view`. If `known` is given, take the inputs of
+    mirrors and objects from it.
+    """
     chosen, wanted = groups(context), Wanted(context.scene)
     mirrors = [(one, group) for group in chosen for one in group.assemblies]
     settings = {one.mirror.session_uid: wanted(one.mirror) for one, _ in mirrors}
@@ -74,7 +75,7 @@ def watched(context: bpy.types.Context, view: View, known: Record | None = None)
 
 
 def _previewed(context: bpy.types.Context) -> set:
-    """The mirrors of results that show previews, which are made of materials and do not change with them."""
+    """Return the mirrors of results that show previews. Previews are copies of the materials' colours."""
     return {obj.reflection_mesh.mirror for obj in kept_results(context) if shows_preview(obj)}
 
 

@@ -1,4 +1,4 @@
-"""New results in the making, a little at a time."""
+"""The generation of new results in time slices."""
 from __future__ import annotations
 
 import time
@@ -17,23 +17,23 @@ BUDGET = 0.05   # seconds of work between two looks at what has changed
 
 @dataclass
 class Work:
-    """The generations of all groups, one after another.
+    """The generation of all groups, one after another.
 
     Attributes
     ----------
     record : Record
-        Of what they are made from.
+        The inputs.
     settings : dict of int to Settings
-        Of each mirror, by its `session_uid`.
+        Settings of each mirror, by its `session_uid`.
     exact : bool
-        Whether these are the file's.
+        True if the settings are the file's.
     on_the_way : bool
-        Whether it was begun while something moved: then it is finished although more moves, to be seen at all.
+        True if it was started during movement. Then it is finished despite further movement, to be visible at all.
     seconds : float
-        Of work until now.
+        Duration so far.
     outcomes : list of Outcome
     told : str
-        Why some are missing.
+        Message on why some results are missing.
     """
 
     record: Record
@@ -55,7 +55,7 @@ class Work:
                                                 view=current.view)) for group in current.chosen])
 
     def go_on(self) -> bool:
-        """Work for a while; whether all is done."""
+        """Work for one time slice. Return True when everything is done."""
         started = time.perf_counter()
         begun = False
         while self._waiting and not (begun and time.perf_counter() - started >= BUDGET):
@@ -66,20 +66,20 @@ class Work:
                 self.outcomes.append(stop.value)
                 del self._waiting[0]
             except ReflectionError as error:
-                # what this mirror cannot show keeps none of the others
+                # an error of one mirror does not stop the others
                 self.told = str(error)
                 del self._waiting[0]
         self.seconds += time.perf_counter() - started
         return not self._waiting
 
     def close(self) -> None:
-        """Stop without a trace."""
+        """Stop without leaving anything behind."""
         for steps in self._waiting:
             steps.close()
         self._waiting = []
 
 
 def _reading_at_once(steps: Steps[Outcome]) -> Steps[Outcome]:
-    """The steps of a generation, of which the first reads what is reflected, so that nothing moves in between."""
+    """Yield the steps of a generation. The first step reads all reflected objects, so that nothing moves in between."""
     next(steps)
     return (yield from steps)

@@ -18,7 +18,7 @@ LINKED_TO_CLEAR = ("The reflections are linked from another file: clear them in 
 
 
 def chosen_results(context: bpy.types.Context) -> list:
-    """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
+    """Return the selected results, or those of selected mirrors; all of the scene if the selection refers to none."""
     results = [obj for obj in context.scene.objects
                if is_result(obj) and obj.library is None]
     return named_by_selection(context, results) or results
@@ -48,7 +48,8 @@ def clear(context: bpy.types.Context, results: list) -> None:
 
 
 def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
-    """The caustics that are selected or whose mirrors are, or all of the scene where none are; whether any are."""
+    """Return the caustics that are selected or whose mirrors are, else all of the scene; and True if any are selected.
+    """
     every = [obj for obj in context.scene.objects
              if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
     named = named_by_selection(context, every)
@@ -86,7 +87,7 @@ def _remove(objects: list) -> None:
 
 
 def _set_free(context: bpy.types.Context, results: list) -> None:
-    """Let what the user has joined to results outlast them; of those that have one mesh, to one."""
+    """Keep objects that the user has joined to results. Of results with a shared mesh, keep them once."""
     with AllOrNothing() as whole:
         for obj in {obj.data: obj for obj in results if not plays(obj)}.values():
             set_free(context, obj, whole)

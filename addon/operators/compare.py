@@ -135,7 +135,7 @@ def _judged(context: bpy.types.Context, chosen: Participants, results: list, fol
 
 
 def _measured(renders: Renders) -> tuple[Measurement, dict | None]:
-    """The errors of what the mesh shows, and those against what the mirror would show without rounded normals."""
+    """Return the errors of the mesh's picture, and those without the rounding of normals, or None."""
     pictures = renders.mirror, renders.bent, renders.truth
     return (measure(*pictures, renders.shown),
             renders.exact and without_packing(*pictures, renders.exact, renders.shown))
@@ -149,7 +149,7 @@ REFERENCE, RAYS = 512, 400_000
 
 
 def means_caustics(context: bpy.types.Context) -> bool:
-    """Whether the selection, or what there is of the mirrors that take part, means caustics."""
+    """Return True if the selection, or the existing results of the mirrors that take part, point to caustics."""
     chosen = [obj for obj in context.view_layer.objects
               if obj.select_get() or obj == context.view_layer.objects.active]
     roles = {obj.reflection_mesh.role for obj in chosen}
@@ -219,7 +219,7 @@ def remarks_on(context: bpy.types.Context, report: dict) -> list[str]:
 
 
 def summary(report: dict, folder: str) -> str:
-    """The report in one sentence."""
+    """Return the report in one sentence."""
     displacement, coverage = report["displacement_px"], report["coverage_percent"]
     if not report["judged_pixels"]:
         return f"The camera sees no mirror whose reflection could be judged; pictures in {folder}"

@@ -31,8 +31,8 @@ from ..reading import Participants, read_view
 READING, RENDERING, TRACING, JUDGING = 0.02, 0.8, 0.1, 0.04  # shares of the work
 COMPARING = "Comparing the pictures"
 STEPS_UP = 4  # times as many samples in the second picture of each kind
-ON_SURFACE = 2e-3  # of the distance: what lies so near to something lies on it
-MOST_PIECES = 20_000  # of the curve
+ON_SURFACE = 2e-3  # relative to the distance; points so close to a surface lie on it
+MOST_PIECES = 20_000  # limit for the number of segments of the caustic curve
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,12 @@ class Effort:
 
 
 def caustics_in(context: bpy.types.Context) -> list:
-    """The scene's caustics that are there to be compared.
+    """Return the scene's caustics, which will be compared.
 
     Raises
     ------
     ReflectionError
-        Where there are none, or some are hidden or have lost their lamp or mirror.
+        If there are none, or some are hidden or have lost their lamp or mirror.
     """
     found = [obj for obj in context.view_layer.objects if obj.reflection_mesh.role == "CAUSTICS" and obj.type == "MESH"]
     if not found:
@@ -126,7 +126,7 @@ def light_comparison(context: bpy.types.Context, folder: str, effort: Effort) ->
 
 
 def light_summary(report: dict, folder: str) -> str:
-    """The report in one sentence."""
+    """Return the report in one sentence."""
     last = {run["method"]: run for run in report["runs"]}
     mesh, own = (last[method]["picture"]["receivers"]["psnr"] for method in (MESH, OWN))
     flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]
@@ -157,7 +157,7 @@ def _surroundings(context: bpy.types.Context, depsgraph: bpy.types.Depsgraph, re
 
 
 def _seen(view: View, around: list) -> np.ndarray:
-    """Pixels (n,) in which the camera sees something that light may fall on."""
+    """Return the pixels (n,) in which the camera sees an object that may receive caustics."""
     seen = np.zeros(view.resolution[0] * view.resolution[1], dtype=bool)
     for one in around:
         breathe()
@@ -169,7 +169,9 @@ def _seen(view: View, around: list) -> np.ndarray:
 
 
 def _errors(pictures: LightPictures, mask: np.ndarray) -> list:
-    """Of each shot, its own first: errors over the mask, and how far two of other noise are apart."""
+    """Return, for each shot, its errors over the mask and its noise (difference between two random seeds). Cycles' own
+    shots come first.
+    """
     found = []
     for shot in (*pictures.own, *pictures.mesh):
         breathe()
@@ -186,7 +188,8 @@ def _noise(shot: Shot, mask: np.ndarray) -> float | None:
 
 
 def _curve(view: View, faces: list, around: list, pictures: LightPictures, mask: np.ndarray) -> dict:
-    """Where the brightest lines of the reference and of the last picture with meshes run beside the folds."""
+    """Compare the brightest lines near the folds of the caustics in the reference and in the last picture with meshes.
+    """
     middle, inward, length = (np.concatenate(one) for one in zip(*(
         _folds(view, lit, one) for lit, one in zip(faces, around))))
     known = {"regions": 0, "pieces": len(length)}
@@ -206,8 +209,9 @@ def _curve(view: View, faces: list, around: list, pictures: LightPictures, mask:
 
 
 def _folds(view: View, lit: Lit, around: Surroundings) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pieces of the curve that the camera sees: their middles in pixels, the unit way to the lit side, and how long
-    they are."""
+    """Return the segments of the caustic curve that the camera sees: middles in pixels, unit directions to the lit
+    side, and lengths.
+    """
     on_fold = (lit.parity == 0)[lit.triangles]
     row = np.flatnonzero(on_fold.sum(axis=1) == 2)
     third = np.argmin(on_fold[row], axis=1)

@@ -1,4 +1,4 @@
-"""Which results of those that are chosen can be lit: the mirror is there, and the scene's camera is theirs."""
+"""Select the results that can be lit: their mirror exists, and they belong to the scene's camera."""
 from __future__ import annotations
 
 import bpy
@@ -8,9 +8,10 @@ from ..reading import camera_of, in_viewports, lost_mirror, mirrors_of
 
 
 def with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int]]) -> list[tuple[list, int]]:
-    """The groups without the results whose mirror is gone or hidden, and what is no mesh any more, which the panel
-    tells of."""
-    # those that are hidden in renders alone are lit as ever
+    """Return the groups without results whose mirror is deleted or hidden, and without those that are not meshes. The
+    panel reports these.
+    """
+    # mirrors hidden in renders only are lit as usual
     there = in_viewports(context)
     own = [([result for result in results if result.type == "MESH" and not there.isdisjoint(mirrors_of(result))],
             samples)
@@ -27,7 +28,7 @@ def with_mirrors(context: bpy.types.Context, groups: list[tuple[list, int]]) -> 
 
 
 def for_the_camera(camera: bpy.types.Object, groups: list[tuple[list, int]]) -> list[tuple[list, int]]:
-    """The groups without the results of other cameras."""
+    """Return the groups without the results of other cameras."""
     own = [([result for result in results if camera_of(result) in (None, camera)], samples)
            for results, samples in groups]
     if not any(results for results, _ in own):

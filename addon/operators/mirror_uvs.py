@@ -56,7 +56,7 @@ TOLD = 1.0     # pixels
 
 @dataclass(frozen=True)
 class Choices:
-    """What the user chooses: the entries of `TARGETS` and `FRAMES`, and the file of a picture, or none."""
+    """The user's choices: entries of `TARGETS` and `FRAMES`, and the path of an image (or "")."""
 
     target: str = "COPY"
     frame: str = "CAMERA"
@@ -71,19 +71,19 @@ class Outcome:
     remarks: list
 
     def summary(self, seconds: float) -> str:
-        """One line on what was written."""
+        """Return one line on what was written."""
         names = ", ".join(f"'{obj.name}'" for obj in self.objects)
         faces = one_or_more(sum(len(obj.data.polygons) for obj in self.objects), "1 face", "{count} faces")
         return f"{names}: UV map '{UV_MAP}', {faces}, those that are seen marked '{SEEN}', {seconds:.2f} s"
 
 
 def map_settings(wanted: Wanted, chosen: Participants) -> core.Settings:
-    """The settings of a reflection whose faces tell a map: one bounce, on the mirror itself.
+    """Return the settings of a reflection from which a map is made: one bounce, on the mirror itself.
 
     Raises
     ------
     core.ReflectionError
-        Where one of them cannot be.
+        If a setting is invalid.
     """
     own = wanted(chosen.mirrors[0])
     return core.Settings(tolerance=own.tolerance, maximum_memory=own.maximum_memory, placement="SURFACE")
@@ -151,7 +151,7 @@ def mapping(context: bpy.types.Context, chosen: Participants, settings: core.Set
 
 
 def _written(write: Callable[..., Steps[bpy.types.Object]], entries: list) -> Steps[list]:
-    """The objects that the steps `write` make of entries."""
+    """Return the objects that the steps `write` make of entries."""
     objects = []
     for entry in entries:
         yield 1.0, "Writing"

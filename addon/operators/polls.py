@@ -35,7 +35,9 @@ Obstacle = Callable[[bpy.types.Context], str]
 
 
 def passes(cls, context: bpy.types.Context, *obstacles: Obstacle) -> bool:
-    """Whether nothing is in the way of an operator; else Blender tells the first sentence beside the grey button."""
+    """Return True if no obstacle prevents an operator. Otherwise Blender shows the first obstacle's sentence on the
+    greyed-out button.
+    """
     if getattr(context, "scene", None) is None or getattr(context, "view_layer", None) is None:
         return False
     sentence = next(filter(None, (obstacle(context) for obstacle in obstacles)), "")
@@ -45,7 +47,9 @@ def passes(cls, context: bpy.types.Context, *obstacles: Obstacle) -> bool:
 
 
 def in_object_mode(sentence: str) -> Obstacle:
-    """Tells `sentence` in every other mode, and of a scene in which nothing can be changed that it is linked."""
+    """Return an obstacle that says `sentence` in every mode but Object Mode, and says that the scene is linked if it
+    is.
+    """
     def obstacle(context: bpy.types.Context) -> str:
         if context.scene.library is not None:
             return LINKED_SCENE
@@ -54,12 +58,14 @@ def in_object_mode(sentence: str) -> Obstacle:
 
 
 def has_camera(context: bpy.types.Context) -> str:
-    """The scene has a camera."""
+    """Return a sentence if the scene has no camera, else ""."""
     return "" if context.scene.camera is not None else NO_CAMERA
 
 
 def has_mirror(context: bpy.types.Context) -> str:
-    """The scene has a mirror by role or material, or what is selected or active may be one, or is shown by one."""
+    """Return a sentence if the scene has no mirror by role or material, and no selected or active object may be a
+    mirror or is shown by one; else "".
+    """
     objects = context.view_layer.objects
     active = objects.active
     if active is not None and active.reflection_mesh.role in {"REFLECTION", "CAUSTICS", "MIRROR"}:
@@ -69,8 +75,7 @@ def has_mirror(context: bpy.types.Context) -> str:
     if (len(selected) > LOOKED_AT or len(chosen) > 1 or len(bpy.data.materials) > LOOKED_THROUGH
             or any(obj.reflection_mesh.role in RESULTS for obj in selected)):
         return ""
-    # what is selected may have been a mirror, or be shown by one that has no material of a mirror any more
-    # each material is asked once, however many objects have it
+    # a selected object may have been a mirror, or be shown by one that has no mirror material any more
     rough = {one: roughness for one in bpy.data.materials if (roughness := least_roughness(one)) is not None}
     sharp = {one for one, roughness in rough.items() if roughness <= SHARP_ROUGHNESS}
     found = any(may_say_mirror(obj, set(rough)) for obj in chosen) or _any(
@@ -92,13 +97,15 @@ def has_reflected(context: bpy.types.Context) -> str:
 
 
 def has_mirror_or_caustics(context: bpy.types.Context) -> str:
-    """As `has_mirror`, or the scene has the light of mirrors."""
+    """Check like `has_mirror`, but accept caustics in the scene as well."""
     return has_mirror(context) and ("" if _any(context.view_layer.objects, lambda obj: (
         obj.reflection_mesh.role == "CAUSTICS")) else NO_MIRROR)
 
 
 def has_result(sentence: str, linked: str) -> Obstacle:
-    """Tells `sentence` where the scene has no reflection, `linked` where the file has none but linked ones."""
+    """Return an obstacle that says `sentence` if the scene has no reflection, or `linked` if the file has only linked
+    ones.
+    """
     def obstacle(context: bpy.types.Context) -> str:
         active = context.view_layer.objects.active
         if (active is not None and _is_result(active)) or _any(context.scene.objects, _is_result):
@@ -125,7 +132,7 @@ def has_what_clears(sentence: str, linked: str) -> Obstacle:
 
 
 def has_lamp(context: bpy.types.Context) -> str:
-    """The view layer has a lamp, or what is selected or has thrown light may be one."""
+    """Return a sentence if the view layer has no lamp, and no selected object or result may provide one; else ""."""
     objects = context.view_layer.objects
     active, selected = objects.active, list(islice(objects.selected, LOOKED_AT + 1))
     if len(selected) > LOOKED_AT or any(map(is_mesh_lamp, selected)) or (
@@ -135,7 +142,7 @@ def has_lamp(context: bpy.types.Context) -> str:
 
 
 def has_sheet(context: bpy.types.Context) -> str:
-    """The active object carries the map of a mirror."""
+    """Return a sentence if the active object has no map of a mirror, else ""."""
     active = context.view_layer.objects.active
     return NO_SHEET if active is None else why_no_sheet(active)
 
@@ -150,7 +157,7 @@ def has_what_is_kept_right(sentence: str) -> Obstacle:
 
 
 def _any(objects, asked: Callable) -> bool:
-    """Whether one of the objects is as asked; of too many to look through, one may be."""
+    """Return True if one of the objects passes the test `asked`. Assume it if there are too many to test."""
     return len(objects) > LOOKED_THROUGH or any(map(asked, objects))
 
 

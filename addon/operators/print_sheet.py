@@ -52,12 +52,12 @@ def printing(context: bpy.types.Context, obj: bpy.types.Object | None, path: str
 
 
 def check_print(path: str, dpi: float) -> None:
-    """Whether a sheet can be saved at the absolute `path`, as far as can be told before.
+    """Check that a sheet can be saved at the absolute `path`, as far as possible in advance.
 
     Raises
     ------
     ReflectionError
-        Where it cannot.
+        If it cannot.
     """
     if os.path.splitext(path)[1].lower() not in KINDS:
         raise ReflectionError(f"'{path}' is neither a .png nor a .svg file: name one of them.")

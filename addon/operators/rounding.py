@@ -15,7 +15,7 @@ COARSE = 0.125  # pixels: at 0.05 the errors against Cycles are as beside the or
 
 
 def rounding_remarks(context: bpy.types.Context, results: list) -> list[str]:
-    """A sentence if places of `results` are rounded to more than a fraction of the camera's pixels."""
+    """Return a sentence if positions of `results` are rounded to more than a fraction of the camera's pixels."""
     if context.scene.camera is None:
         return []
     points = np.concatenate([np.zeros((0, 3)), *map(_places, results)])
@@ -39,6 +39,6 @@ def rounding(view: View, points: np.ndarray) -> tuple[float, float]:
 
 
 def _places(obj: bpy.types.Object) -> np.ndarray:
-    """The vertices (n, 3) of an object in world space."""
+    """Return the vertices (n, 3) of an object in world space."""
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     return vectors(obj.data, "position") @ matrix[:3, :3].T + matrix[:3, 3]

@@ -15,11 +15,12 @@ _known: dict[tuple[int, str], list] = {}
 
 
 def known_results(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> list:
-    """The objects of a scene's view layer that are results of any kind, as far as Blender has told of them: what a
-    script has made or removed counts from the view layer's next update on."""
+    """Return the results of any kind in a scene's view layer, from a cache. Results that a script has made or removed
+    count from the view layer's next update on.
+    """
     key = scene.session_uid, layer.name
     if key not in _known:
-        # of what was removed just now the layer has an empty place
+        # the view layer holds None in place of an object that was just removed
         _known[key] = [obj for obj in layer.objects if obj is not None and obj.reflection_mesh.role in RESULTS]
     try:
         return [obj for obj in _known[key] if obj.reflection_mesh.role in RESULTS]

@@ -7,8 +7,7 @@ from .. import compat
 
 
 def lines_drawn(scene: bpy.types.Scene) -> bool:
-    """Whether an object of the scene has Line Art, or one of its view layers Freestyle, that viewports or renders
-    show."""
+    """Return True if an enabled Line Art modifier or an enabled Freestyle view layer draws lines in the scene."""
     return _has_freestyle(scene) or any(map(_has_line_art, scene.objects))
 
 

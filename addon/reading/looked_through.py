@@ -1,4 +1,4 @@
-"""What the camera looks through though its materials let no light through: walls that are taken away for it alone."""
+"""Detect opaque objects that are hidden from the camera only, e.g. walls that were removed to see into a room."""
 from __future__ import annotations
 
 import bpy
@@ -6,7 +6,9 @@ import numpy as np
 
 
 def looked_through(depsgraph: bpy.types.Depsgraph, mirrors: list, diffuse: list) -> bool:
-    """Whether the camera may see mirrors from within an object that it does not see itself."""
+    """Return True if the box of an object hidden from the camera intersects the box of a mirror. Hidden instancers
+    always count.
+    """
     unseen = [obj for obj in diffuse if is_unseen(obj, depsgraph.view_layer)]
     if not unseen:
         return False
@@ -25,7 +27,7 @@ def is_unseen(obj: bpy.types.Object, layer: bpy.types.ViewLayer) -> bool:
 
 
 def _box(evaluated: bpy.types.Object) -> np.ndarray:
-    """The lowest and the highest corner (2, 3) of the box round an object, in world space."""
+    """Return the lowest and the highest corner (2, 3) of the bounding box of an object, in world space."""
     matrix = np.array(evaluated.matrix_world, dtype=np.float64)
     corners = np.array(evaluated.bound_box, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     return np.stack((corners.min(axis=0), corners.max(axis=0)))

@@ -1,4 +1,4 @@
-"""Metaballs that melt together: one of them, the basis, has the faces and the resolution of all."""
+"""Families of metaballs that merge: one of them, the basis, has the faces and the resolution of all."""
 from __future__ import annotations
 
 import re
@@ -7,7 +7,7 @@ import bpy
 
 
 def basis_of(obj: bpy.types.Object) -> bpy.types.Object:
-    """The metaball that has the faces of `obj`: of those that are called alike but for a number the first."""
+    """Return the metaball that has the faces of `obj`: the first one of those with the same name but for the number."""
     family, _ = _family(obj)
     alike = [other for other in bpy.data.objects if other.type == "META" and _family(other)[0] == family
              and other.users_scene]
@@ -15,7 +15,7 @@ def basis_of(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 def is_part(obj: bpy.types.Object) -> bool:
-    """Whether an object is a metaball whose faces another one has."""
+    """Return True for a metaball whose faces belong to another object, its basis."""
     return obj.type == "META" and basis_of(obj) != obj
 
 

@@ -1,4 +1,4 @@
-"""What is going to move: light that goes by the view is worth little there; and what comes and goes."""
+"""Detect objects that are animated or simulated, and objects that appear and disappear."""
 from __future__ import annotations
 
 import bpy
@@ -9,7 +9,7 @@ SWITCHES = ("hide_render", "hide_viewport", "visible_glossy")
 
 
 def moves(obj: bpy.types.Object | None) -> bool:
-    """Whether an object, its data or what it hangs on is animated, driven, constrained or simulated."""
+    """Return True if an object, its data or one of its parents is animated, driven, constrained or simulated."""
     while obj is not None:
         if obj.animation_data is not None or obj.constraints or obj.rigid_body is not None:
             return True
@@ -20,7 +20,9 @@ def moves(obj: bpy.types.Object | None) -> bool:
 
 
 def comes_and_goes(obj: bpy.types.Object) -> bool:
-    """Whether what hides an object from viewports, renders or mirrors is animated, by strips too, or driven."""
+    """Return True if the visibility of an object in viewports, renders or mirrors is animated (also by strips) or
+    driven.
+    """
     # collections cannot be animated
     data = obj.animation_data
     return data is not None and any(curve.data_path in SWITCHES
@@ -28,7 +30,8 @@ def comes_and_goes(obj: bpy.types.Object) -> bool:
 
 
 def forgets_particles(obj: bpy.types.Object) -> bool:
-    """Whether an object has particles that Blender simulates from frame to frame, and forgets where anything of the
-    object is switched; those that are baked, and hair, it keeps."""
+    """Return True if an object has simulated emitter particles without a baked cache. Blender discards these when a
+    setting of the object changes. It keeps baked particles and hair.
+    """
     return any(modifier.type == "PARTICLE_SYSTEM" and modifier.particle_system.settings.type == "EMITTER"
                and not modifier.particle_system.point_cache.is_baked for modifier in obj.modifiers)

@@ -1,4 +1,4 @@
-"""What mirrors show in renders and no reflection has, where nobody chose to leave it out."""
+"""Find objects that mirrors show in renders but that no reflection contains, though the user did not exclude them."""
 from __future__ import annotations
 
 import bpy
@@ -11,8 +11,9 @@ NO_SURFACES = {"CURVES", "POINTCLOUD", "VOLUME"}
 
 
 def rendered_alone(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
-    """What is hidden in the viewport but not from the mirrors in renders, and so is missing, where all else that is
-    seen takes part; nothing where the user chose what does."""
+    """Return the objects that are hidden in the viewport but that mirrors show in renders. Return an empty list if the
+    user chose what takes part, that is, if a visible object is left out.
+    """
     rendered, taking = rendered_in(context.view_layer), {*mirrors, *diffuse}
     if not _shows_all(context, mirrors, diffuse):
         return []
@@ -21,7 +22,9 @@ def rendered_alone(context: bpy.types.Context, mirrors: list, diffuse: list) -> 
 
 
 def in_background_set(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
-    """What renders show of the scenes behind this one, where all that is seen in this one takes part."""
+    """Return the objects that renders show from the background sets of this scene. Return an empty list if a visible
+    object of this scene is left out.
+    """
     found: list = []
     behind = context.scene.background_set
     while behind is not None and _shows_all(context, mirrors, diffuse):
@@ -31,15 +34,16 @@ def in_background_set(context: bpy.types.Context, mirrors: list, diffuse: list) 
 
 
 def _shows_all(context: bpy.types.Context, mirrors: list, diffuse: list) -> bool:
-    """Whether all that is seen takes part, and nothing was left out by choice."""
+    """Return True if every visible object takes part as a mirror or as a diffuse object."""
     is_seen, taking = seen_in(context), {*mirrors, *diffuse}
     return not any(obj not in taking and obj.visible_glossy and can_take_part(obj) and is_seen(obj)
                    for obj in context.view_layer.objects)
 
 
 def without_surface(context: bpy.types.Context, mirrors: list, diffuse: list) -> list:
-    """What mirrors would show in renders but no mesh can be read of: of diffuse objects, of what is selected with them,
-    and where all that is seen takes part."""
+    """Return the objects that mirrors show in renders but that have no mesh, such as hair, curves and volumes. They
+    must be diffuse or selected, unless every visible object takes part.
+    """
     is_seen, everything = seen_in(context), _shows_all(context, mirrors, diffuse)
     drawn = _drawn_without(context.evaluated_depsgraph_get())
     return [obj for obj in context.view_layer.objects
@@ -48,12 +52,12 @@ def without_surface(context: bpy.types.Context, mirrors: list, diffuse: list) ->
 
 
 def has_fog(scene: bpy.types.Scene) -> bool:
-    """Whether the world of a scene, or an object that renders show, is fog."""
+    """Return True if the world of a scene, or an object that renders show, has only a volume."""
     return fog_of(scene.world) is not None or any(all_fog(obj) and not obj.hide_render for obj in scene.objects)
 
 
 def _drawn_without(depsgraph: bpy.types.Depsgraph) -> set:
-    """The objects that are, or of which nodes or instances make, what has no mesh."""
+    """Return the objects that have no mesh themselves, or whose nodes or instances make data without a mesh."""
     found = set()
     for instance in depsgraph.object_instances:
         evaluated = instance.object
@@ -63,7 +67,7 @@ def _drawn_without(depsgraph: bpy.types.Depsgraph) -> set:
 
 
 def _is_anything(evaluated: bpy.types.Object) -> bool:
-    """Whether there is anything in curves, a cloud or a volume: nodes may have left nothing."""
+    """Return True if curves, a point cloud or a volume are not empty, as nodes may have left them."""
     data = evaluated.data
     if evaluated.type == "VOLUME":
         return len(data.grids) > 0 or not any(modifier.type == "NODES" for modifier in evaluated.modifiers)
@@ -71,7 +75,7 @@ def _is_anything(evaluated: bpy.types.Object) -> bool:
 
 
 def _has_hair(obj: bpy.types.Object) -> bool:
-    """Whether renders show hair of particles on an object."""
+    """Return True if renders show particle hair on an object."""
     return any(modifier.show_render and modifier.particle_system.settings.type == "HAIR"
                and modifier.particle_system.settings.render_type == "PATH"
                for modifier in obj.modifiers if modifier.type == "PARTICLE_SYSTEM")

@@ -1,8 +1,8 @@
-"""What is said where nothing is to be seen in a mirror at the moment, and may be at another one."""
+"""The error for a mirror that shows nothing at this moment, but may at another frame."""
 from __future__ import annotations
 
 from ...core import ReflectionError
 
 
 class NothingSeen(ReflectionError):
-    """There is a mirror, and something to reflect, and nothing of it is to be seen at the moment."""
+    """There are a mirror and objects to reflect, but nothing of them is visible at this moment."""

@@ -13,12 +13,12 @@ NO_CAMERA = "The scene has no camera: add one (Add > Camera) and make it the sce
 
 
 def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -> View:
-    """The eye of the scene's camera at the render's resolution, or at `size`, in world space and scene units.
+    """Return the view of the scene's camera in world space and scene units, at the render's resolution or at `size`.
 
     Raises
     ------
     ReflectionError
-        Where the scene has no camera, or one whose picture is not a perspective or an orthographic one.
+        If the scene has no camera, or a panoramic one.
     """
     scene = context.scene
     camera = scene.camera
@@ -36,7 +36,7 @@ def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -
     projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x,
                                            scale_y=render.pixel_aspect_y)
     placement = np.array(camera.matrix_world, dtype=np.float64)
-    # as a render does: the camera's scale takes no part in its picture
+    # like a render, ignore the camera's scale
     length = np.linalg.norm(placement[:3, :3], axis=0)
     if not np.isfinite(placement).all() or (length == 0.0).any():
         raise ReflectionError(f"The camera '{camera.name}' has a scale of zero or a position that is no number: clear "
@@ -47,7 +47,9 @@ def read_view(context: bpy.types.Context, size: tuple[int, int] | None = None) -
 
 
 def with_square_pixels(view: View, render: bpy.types.RenderSettings) -> View:
-    """What `view`, a picture of pixels of the shape that `render` has, sees in square ones, no side of them longer."""
+    """Return `view`, whose pixels have the aspect of `render`, with square pixels. The shorter side of a pixel stays as
+    it is, so that the resolution grows.
+    """
     sides = np.array((render.pixel_aspect_x, render.pixel_aspect_y))
     size = np.array(view.resolution) * sides / sides.min()
     size *= min(1.0, LARGEST_SIDE / size.max())
@@ -55,7 +57,7 @@ def with_square_pixels(view: View, render: bpy.types.RenderSettings) -> View:
 
 
 def render_size(scene: bpy.types.Scene) -> tuple[int, int]:
-    """Width and height of the render in pixels."""
+    """Return the width and the height of the render in pixels."""
     render = scene.render
     return tuple(max(1, size * render.resolution_percentage // 100)
                  for size in (render.resolution_x, render.resolution_y))

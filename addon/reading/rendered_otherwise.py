@@ -1,5 +1,6 @@
-"""What renders show with another mesh than viewports do: of that a reflection shows the viewport's, as all of Blender's
-tools do that read meshes."""
+"""Find objects whose mesh differs between viewports and renders. Reflections show the viewport's mesh, as do all tools
+of Blender that read meshes.
+"""
 from __future__ import annotations
 
 import bpy
@@ -12,8 +13,9 @@ RESOLUTIONS = (("resolution_u", "render_resolution_u"), ("resolution_v", "render
 
 
 def rendered_otherwise(scene: bpy.types.Scene, obj: bpy.types.Object) -> str:
-    """The name of the first modifier of an object, or of the curve or metaball that it shows, by which renders of the
-    scene give it another mesh than viewports; empty where there is none."""
+    """Return the name of the first modifier, or of the curve or metaball data, that gives an object another mesh in
+    renders than in viewports; empty if there is none.
+    """
     for modifier in obj.modifiers:
         if modifier.show_viewport != modifier.show_render or (modifier.show_render and _finer(scene, modifier)):
             return modifier.name
@@ -22,7 +24,7 @@ def rendered_otherwise(scene: bpy.types.Scene, obj: bpy.types.Object) -> str:
     data = obj.data
     if obj.type == "META" and not is_part(obj) and data.resolution != data.render_resolution:
         return data.name
-    # none of its own: renders take the viewport's
+    # a render resolution of 0 means the viewport's
     if obj.type in {"CURVE", "SURFACE", "FONT"} and any(
             getattr(data, render) not in {0, getattr(data, view)} for view, render in RESOLUTIONS):
         return data.name

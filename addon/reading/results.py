@@ -9,20 +9,20 @@ RESULTS = {"REFLECTION", "CAUSTICS"}
 
 
 def is_result(obj: bpy.types.Object) -> bool:
-    """Whether an object is a reflection that was generated."""
+    """Return True for an object that is a generated reflection."""
     return obj.reflection_mesh.role == "REFLECTION"
 
 
 def has_linked_results() -> bool:
-    """Whether the file has results that are linked from another one, as objects or in instances of collections."""
+    """Return True if the file has results that are linked from another file, as objects or in collection instances."""
     return any(obj.library is not None and obj.reflection_mesh.role in RESULTS for obj in bpy.data.objects)
 
 
 def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
-    """Results in the scene, or `among` some of it, that show the reflection in `mirror` to the scene's camera, and can
-    be changed.
+    """Return the results of `mirror` for the scene's camera that can be changed, from the scene or from the list
+    `among`.
 
-    Where none is that camera's own, those of no camera in particular are, which earlier versions made.
+    If none belongs to that camera, return results without a camera, which earlier versions made.
     """
     every = every_result_of(context, mirror, among)
     own = [obj for obj in every if camera_of(obj) == context.scene.camera]
@@ -30,7 +30,7 @@ def results_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list
 
 
 def every_result_of(context: bpy.types.Context, mirror: bpy.types.Object, among: list | None = None) -> list:
-    """As `results_of`, for every camera."""
+    """Return the results of `mirror` for every camera, see `results_of`."""
     return [obj for obj in (context.scene.objects if among is None else among) if is_result(obj)
             and (obj.reflection_mesh.mirror == mirror or mirror in mirrors_of(obj))
             and obj.type == "MESH" and obj.library is None]
@@ -52,8 +52,9 @@ def lost_mirror(result: bpy.types.Object) -> bool:
 
 
 def named_by_selection(context: bpy.types.Context, results: list) -> list:
-    """Return those of the results that are selected, or whose mirrors, or parts of these, are; if there is none, the
-    active one if it is protected, and so cannot be selected."""
+    """Return the results that are selected, or whose mirror or its parts are. If there are none, return the active
+    result if it cannot be selected (`hide_select`).
+    """
     selected, active = set(context.selected_objects), context.view_layer.objects.active
     named = [obj for obj in results
              if not selected.isdisjoint((obj, obj.reflection_mesh.mirror, *mirrors_of(obj)))]
@@ -74,7 +75,7 @@ def result_of(context: bpy.types.Context, obj: bpy.types.Object | None, known: l
 
 
 def with_copies(context: bpy.types.Context, results: list) -> list:
-    """Results, and the copies that the user has made of them: those of the same mirror for the same camera."""
+    """Return the results and their copies by the user: results of the same mirror for the same camera."""
     found = dict.fromkeys(results)
     for result in results:
         found.update(dict.fromkeys(obj for obj in every_result_of(context, result.reflection_mesh.mirror)
@@ -94,24 +95,25 @@ def with_joined(context: bpy.types.Context, mirrors: list) -> list:
 
 
 def camera_of(result: bpy.types.Object) -> bpy.types.Object | None:
-    """The camera that a result is right for; None where that is whichever looks, or has been deleted."""
+    """Return the camera that a result was made for. Return None if it fits any camera, or if its camera was deleted."""
     camera = result.reflection_mesh.camera
     return None if is_gone(camera) else camera
 
 
 def is_gone(obj: bpy.types.Object | None) -> bool:
-    """Whether what a result names is there no more: deleted, or joined to another object."""
-    # what is deleted may live on where something still points to it, but in no scene
+    """Return True if an object that a result refers to is None, or was deleted or joined to another object."""
+    # deleted objects that are still referenced exist without a scene
     return obj is None or not obj.users_scene
 
 
 def meant(context: bpy.types.Context, active: bpy.types.Object | None) -> list:
-    """The results that a selection without objects to reflect means, the active one's first: those in it, the active
-    one even where it is not, and those of mirrors in it."""
+    """Return the results that a selection without objects to reflect refers to, the active one's first. These are
+    selected results, the active result even if it is not selected, and results of selected mirrors.
+    """
     selected = [obj for obj in context.view_layer.objects
                 if obj.select_get() or (obj == active and obj.reflection_mesh.role in RESULTS)]
     selected.sort(key=lambda obj: obj != active)
-    # asked for those alone that are a mirror: thousands of others may be selected
+    # compute results only for objects that are mirrors: thousands of others may be selected
     results = [obj for obj in context.scene.objects if is_result(obj)]
     reflected = {mirror for obj in results for mirror in (obj.reflection_mesh.mirror, *mirrors_of(obj))}
     found: dict = {}
@@ -133,12 +135,12 @@ def showing(context: bpy.types.Context, objects: list) -> list:
 
 
 def of_results(results: list) -> tuple[list, list]:
-    """The mirrors of results, and what all of these show.
+    """Return the mirrors of `results`, and the objects that all of these results show.
 
     Raises
     ------
     ReflectionError
-        Where they do not show the same, or a mirror is among what it shows.
+        If the results show different objects, or if a mirror is among the objects.
     """
     diffuse = _sources(results[0])
     other = next((result for result in results if set(_sources(result)) != set(diffuse)), None)

@@ -14,12 +14,12 @@ from .results import RESULTS, lost_mirror, meant, of_results, showing, with_join
 
 
 def participants(context: bpy.types.Context) -> tuple[list, list]:
-    """The mirrors and the diffuse objects that take part, as lists of objects in the order of the view layer.
+    """Return the mirrors and the diffuse objects that take part, two lists in the order of the view layer.
 
     Raises
     ------
     ReflectionError
-        Where there is no mirror or no diffuse object; the message says how to choose one.
+        If there is no mirror or no diffuse object. The message says how to choose one.
     """
     chosen = choose(context)
     return chosen.mirrors, chosen.diffuse
@@ -74,7 +74,7 @@ def without_shadow_catchers(mirrors: list) -> tuple[list, list]:
     Raises
     ------
     ReflectionError
-        Where all of them are.
+        If all of them are shadow catchers.
     """
     caught = list(filter(catches_shadows, mirrors))
     if caught and len(caught) == len(mirrors):
@@ -124,22 +124,25 @@ def _named_or_found(context: bpy.types.Context, all_seen: bool, unmirrored: bool
     mirrors = mirrors or _of_the_scene(context, objects)
     if not mirrors:
         return [], []
-    # what was clicked last may be selected by chance: the mirrors show the others too
+    # a click may have selected the active object by chance, so the mirrors show the others too
     shown = shown_by(context, mirrors, all_seen, unmirrored)
     return mirrors, shown or [obj for obj in chosen if obj not in mirrors]
 
 
 def _of_the_scene(context: bpy.types.Context, objects: list) -> list:
-    """Return the mirrors of a scene: those with that role, or where there are none those that are seen and have the
-    material of one."""
+    """Return the mirrors of a scene: objects with that role, or, if there are none, visible objects with a mirror
+    material.
+    """
     said = [obj for obj in objects if obj.reflection_mesh.role == "MIRROR"]
     is_seen = seen_at_times(context)
     return said or mirrors_among([obj for obj in objects if obj.reflection_mesh.role == "AUTO" and is_seen(obj)])
 
 
 def shown_by(context: bpy.types.Context, mirrors: list, all_seen: bool = True, unmirrored: bool = False) -> list:
-    """What mirrors show that are chosen alone: what is said to be reflected, else, where that is `all_seen`, whatever
-    is there now or at other frames; with what is hidden from glossy rays where `unmirrored` is said."""
+    """Return the objects that `mirrors` show if they are chosen without others. These are the objects with the role
+    Reflected. If there are none and `all_seen` is set, these are all objects visible now or at other frames. Include
+    objects that are hidden from glossy rays only if `unmirrored` is set.
+    """
     others = [obj for obj in context.view_layer.objects if can_take_part(obj) and obj not in mirrors]
     said = [obj for obj in others if obj.reflection_mesh.role == "DIFFUSE"]
     if said or not all_seen:

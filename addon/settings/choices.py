@@ -1,4 +1,4 @@
-"""What can be chosen: the entries of lists, as artists read them. The numbers are those that files hold."""
+"""Entries of the enumerated settings, as artists read them. Files store the numbers."""
 
 PLACEMENTS = (
     ("LAYERED", "Layered", "Just in front of the mirror, with near images in front of far ones",

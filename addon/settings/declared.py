@@ -5,33 +5,33 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .choices import ATTRIBUTES, METHODS, PLACEMENTS, WORLD_FACES
 
-SAMPLES = 64    # of light, per pixel
-# what a reflection is made by, and how it is lit
+SAMPLES = 64    # samples of light per pixel
+# settings of the geometry and of the light
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
 LIGHT_SETTINGS = ("light_samples",)
-# what is written of it; a result remembers what it has
+# settings of the written object; a result remembers its own
 WRITTEN_SETTINGS = ("attributes", "world_faces", "join_parts")
 
 
 def declared(names: tuple[str, ...], **more) -> dict:
-    """The properties of the settings that are named, none of them animatable, for a class's annotations.
+    """Return the properties of the named settings, which are not animatable, as annotations of a class.
 
     Parameters
     ----------
     more
-        What else is asked of each property: `options`, `override`.
+        Further arguments of each property: `options`, `override`.
     """
     more = {"options": set(), **more}
     return {name: KINDS[name](**{**VALUES[name], **more}) for name in names}
 
 
 def option(setting: str, /, **more):
-    """A setting as the option of an operator, that its last run does not remember: the file does.
+    """Return a setting as an option of an operator. Its last value is not remembered, since the file holds it.
 
     Parameters
     ----------
     more
-        What differs for this operator.
+        Arguments that differ for this operator.
     """
     return KINDS[setting](**{**VALUES[setting], "options": {"SKIP_SAVE"}, **more})
 

@@ -31,21 +31,21 @@ class SettingsOfMirror:
 
 
 def mirror_of(obj: bpy.types.Object | None) -> bpy.types.Object | None:
-    """The mirror whose settings an object is worked with: a result's, or the object itself."""
+    """Return the mirror whose settings apply to an object: the mirror of a result, or the object itself."""
     if obj is not None and obj.reflection_mesh.role in {"REFLECTION", "CAUSTICS"}:
         return obj.reflection_mesh.mirror
     return obj
 
 
 def holder_of(mirror: bpy.types.Object | None, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
-    """What holds the settings of a mirror: it itself where it has its own, else the scene."""
+    """Return the property group with the settings of a mirror: its own if it has any, else the scene's."""
     if mirror is not None and mirror.reflection_mesh.own_settings:
         return mirror.reflection_mesh
     return scene.reflection_mesh
 
 
 def make_own(mirror: bpy.types.Object, scene: bpy.types.Scene) -> None:
-    """Let a mirror's own settings begin as the scene's, if it never had any."""
+    """Copy the scene's settings to a mirror when it gets its own for the first time."""
     record = mirror.reflection_mesh
     if not any(map(record.is_property_set, ALL)):
         for name in ALL:

@@ -1,6 +1,6 @@
-"""What stands still from one generation to the next is kept as arrays: meshes, the scene with its tree, the mirrors.
+"""Cache arrays between generations: meshes, the scene with its tree, and the mirrors.
 
-The depsgraph tells what no longer stands; where that is in doubt all is read again.
+The depsgraph reports changes. In case of doubt everything is read again.
 """
 from .kept import Kept, Stage
 from .told import register, unregister

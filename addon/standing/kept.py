@@ -1,4 +1,4 @@
-"""The arrays of what was reflected last, for whoever reflects it again."""
+"""The arrays of the last reflection, for the next one."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -24,17 +24,17 @@ from .told import listen, trusted
 
 @dataclass(frozen=True)
 class Stage:
-    """What a generation reflects, and in what: nothing of it changes any more.
+    """The input arrays of a generation; they are never modified.
 
     Attributes
     ----------
     scene : DiffuseScene
     surfaces : list of MirrorSurface
-        Of each mirror; the parts of an assembly are one.
+        One for each mirror; the parts of an assembly are one.
     mirrors : core.TriangleMesh
         All mirrors joined.
     trees : dict
-        Of the scene, by their kind.
+        Trees of the scene, by type.
     """
 
     scene: DiffuseScene
@@ -44,11 +44,11 @@ class Stage:
     _built: dict[type, Standing] = field(default_factory=dict)
 
     def has(self, kind: type) -> bool:
-        """Whether the tree of that kind is there."""
+        """Return True if the tree of that type has been built."""
         return kind in self.trees
 
     def built(self, kind: type[SceneTree] | type[PointTree]) -> Standing:
-        """What is reflected, with a tree of that kind, which is built once."""
+        """Return the scene and the mirrors with a tree of that type, which is built once."""
         if kind not in self.trees:
             self.trees[kind] = kind.build(self.scene.mesh)
         if kind not in self._built:
@@ -58,22 +58,22 @@ class Stage:
 
 @dataclass
 class Kept:
-    """What one depsgraph showed when it was read last.
+    """The contents of one depsgraph when it was read last.
 
-    A mesh is kept until its object, what instances it, or its data are told to have changed, or it shows another
-    material; where everything stands, and what takes part, is read anew each time. What is made of meshes is kept while
-    these, and where they stand, are the same.
+    A mesh is kept until its object, its instancer or its data are reported as changed, or its materials differ.
+    Transforms and participants are read anew each time. Everything made of meshes is kept while the meshes and their
+    transforms are the same.
 
     Attributes
     ----------
     depsgraph : tuple
-        Which one.
+        Identifies the depsgraph.
     meshes : dict
-        By whose they are and what was asked of them, with the `session_uid` of all that they depend on.
+        Meshes by owner and request, with the `session_uid` of everything that they depend on.
     surfaces : dict
-        Of mirrors by their `session_uid`: where their meshes stand, which materials reflect, and the surface.
+        By the `session_uid` of mirrors: placed meshes, reflecting materials, and the surface.
     placed : list of Placed
-        Where the meshes of the diffuse scene stand.
+        The placed meshes of the diffuse scene.
     stage : Stage or None
     """
 
@@ -85,8 +85,9 @@ class Kept:
 
     @staticmethod
     def of(depsgraph: bpy.types.Depsgraph) -> Kept:
-        """What is kept of an evaluated depsgraph: nothing where it cannot be trusted to tell what changes, or is not
-        the one that was read last."""
+        """Return the cache for an evaluated depsgraph. It is empty if the depsgraph was not the last one read, or if
+        its reports of changes cannot be trusted.
+        """
         name = depsgraph.as_pointer(), depsgraph.scene.original.session_uid, depsgraph.view_layer.name
         trust = trusted(depsgraph)
         if not trust or _last.depsgraph != name:
@@ -95,7 +96,7 @@ class Kept:
         return _last if trust else Kept()
 
     def read(self, depsgraph: bpy.types.Depsgraph, mirrors: list[Assembly], diffuse: list) -> Stage:
-        """The mirrors and the diffuse objects, of which what is new is read; what takes no part any more is let go.
+        """Return the mirrors and the diffuse objects. Read what is new, and release what does not take part any more.
 
         Raises
         ------
@@ -105,7 +106,9 @@ class Kept:
 
     def looked_at(self, depsgraph: bpy.types.Depsgraph, mirrors: list[Assembly],
                   diffuse: list) -> tuple[list[list[Placed]], list[Placed]]:
-        """Where the meshes of each mirror stand, and those of the diffuse objects: all that Blender is asked for."""
+        """Read the placed meshes of each mirror, and those of the diffuse objects. Blender's data is not needed
+        afterwards.
+        """
         used: dict[tuple, tuple[LocalMesh, frozenset]] = {}
 
         def known(name: tuple, depends: frozenset, read: Callable[[], LocalMesh | None]) -> LocalMesh | None:
@@ -121,14 +124,14 @@ class Kept:
 
     def joined(self, mirrors: list[Assembly], diffuse: list, of_mirrors: list[list[Placed]],
                placed: list[Placed]) -> Stage:
-        """What `read` returns, of what was looked at."""
+        """Join the placed meshes from `looked_at` into the result of `read`."""
         surfaces = {one.mirror.session_uid: self._surface(one, own) for one, own in zip(mirrors, of_mirrors)}
         self.surfaces = surfaces
         before, own = self.stage, [surface for *_, surface in surfaces.values()]
         same = before is not None and list(map(id, own)) == list(map(id, before.surfaces))
         together = before.mirrors if same else TriangleMesh.joined([surface.mesh for surface in own])
         if before is not None and not (before.scene.sources == diffuse and _same(placed, self.placed)):
-            # what is let go makes room for what comes
+            # release the old arrays before the new ones are made
             before = self.stage = None
         if before is None:
             self.placed, self.stage = placed, Stage(join_scene(placed, diffuse), own, together)
@@ -137,7 +140,7 @@ class Kept:
         return self.stage
 
     def within(self, gigabytes: float) -> None:
-        """Let everything go where it takes more."""
+        """Release everything if it takes more than `gigabytes`."""
         if self is _last and held_bytes(self) > 1e9 * gigabytes:
             _forget(None)
 
@@ -153,12 +156,12 @@ _last = Kept()
 
 
 def held_bytes(item: object = _last) -> int:
-    """Of all arrays in what is kept, each once."""
+    """Return the number of bytes of all arrays in the cache, each counted once."""
     return _bytes(item, set())
 
 
 def _forget(changed: set[int] | None) -> None:
-    """Let the meshes go that depend on what has changed, or all."""
+    """Release the meshes that depend on `changed`, or all."""
     if changed is None:
         vars(_last).update(vars(Kept()))
         return
@@ -170,7 +173,7 @@ listen(_forget)
 
 
 def _same(placed: list[Placed], others: list[Placed]) -> bool:
-    """Whether the same meshes stand in the same places."""
+    """Return True if the same meshes stand at the same places."""
     return len(placed) == len(others) and all(
         one.mesh is other.mesh and np.array_equal(one.owners, other.owners)
         and np.array_equal(one.matrices, other.matrices) and np.array_equal(one.instances, other.instances)
@@ -187,6 +190,6 @@ def _bytes(item: object, seen: set[int]) -> int:
         return sum(_bytes(part, seen) for part in item.values())
     if isinstance(item, (list, tuple)):
         return sum(_bytes(part, seen) for part in item)
-    # of this package's own
+    # descend into objects of this package only
     own = type(item).__module__.startswith(__package__.rsplit(".", 2)[0])
     return sum(_bytes(part, seen) for part in vars(item).values()) if own and hasattr(item, "__dict__") else 0

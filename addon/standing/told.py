@@ -1,6 +1,6 @@
-"""What the depsgraph tells of changes, and when it can be trusted to have told all.
+"""Changes that the depsgraph reports, and a check if its reports are complete.
 
-Meshes are kept under whoever they are evaluated for. Cycles keeps meshes by the same flags.
+Meshes are stored by the object for which they are evaluated. Cycles keeps meshes by the same flags.
 """
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ _evaluating: list[bool] = [False]
 
 
 def listen(forget: Callable[[set[int] | None], None]) -> None:
-    """Let `forget` be called with the `session_uid` of all whose geometry may be another, or with None for all."""
+    """Call `forget` with the `session_uid` of all data whose geometry may have changed, or with None for all."""
     _listeners.append(forget)
 
 
 def trusted(depsgraph: bpy.types.Depsgraph) -> bool:
-    """Whether all that has changed in an evaluated depsgraph has been told: not amid an evaluation, as in handlers of
-    others, not of a render, and not where someone has taken the handlers away."""
+    """Return True if all changes in an evaluated depsgraph have been reported. This is not the case during an
+    evaluation (in other handlers), for renders, and if the handlers were removed.
+    """
     return depsgraph.mode == "VIEWPORT" and not _evaluating[0] and HANDLERS.are_there()
 
 
@@ -48,7 +49,7 @@ def _after_evaluation(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -
 
 @persistent
 def _after_all(*_) -> None:
-    """Before or after whatever may exchange everything."""
+    """Release everything before or after events that may replace all data."""
     _evaluating[0] = False
     _tell(None)
 

@@ -1,4 +1,4 @@
-"""Where new objects go: beside those that they belong to."""
+"""Link new objects into the collections of the objects that they belong to."""
 from __future__ import annotations
 
 import bpy
@@ -7,8 +7,9 @@ from ..reading import redraw_lines
 
 
 def link_beside(scene: bpy.types.Scene, obj: bpy.types.Object, other: bpy.types.Object) -> None:
-    """Put an object into the collections of another, those of this scene that can be changed, which those of a library
-    and their overrides cannot, else into the scene's own."""
+    """Link `obj` into the editable collections of `other` in this scene, else into the scene's own collection. Linked
+    collections and library overrides are not editable.
+    """
     of_scene = {scene.collection, *scene.collection.children_recursive}
     beside = [collection for collection in other.users_collection
               if collection in of_scene and collection.library is None and collection.override_library is None]

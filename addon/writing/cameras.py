@@ -20,11 +20,13 @@ SWITCHES = ("hide_render", "hide_viewport")
 
 
 def show_for_camera(scene: bpy.types.Scene) -> None:
-    """Show the results of the scene's camera and put those of others aside, where it has any, once for each change."""
+    """Show the results of the scene's camera and hide those of other cameras, once for each change of the camera. Do
+    nothing if the camera has no results.
+    """
     camera = scene.camera
     if camera is None or scene.reflection_mesh.seen_by == camera or scene.library is not None:
         return
-    # those of no camera in particular are right for whichever looks, or were put where they are by someone else
+    # leave results without a camera as they are: they fit any camera, or someone else manages them
     results = [obj for obj in scene.objects if is_result(obj) and obj.library is None
                and obj.reflection_mesh.mirror is not None and camera_of(obj) is not None]
     own = [obj for obj in results if camera_of(obj) == camera]
@@ -51,7 +53,7 @@ def _put_aside(obj: bpy.types.Object) -> None:
 
 
 def bring_back(obj: bpy.types.Object) -> None:
-    """Show a result again that was put aside."""
+    """Show a result again that `_put_aside` has hidden."""
     for switch, aside in zip(SWITCHES, obj.reflection_mesh.aside):
         if aside:
             setattr(obj, switch, False)
@@ -59,7 +61,7 @@ def bring_back(obj: bpy.types.Object) -> None:
 
 
 def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
-    """What brings back which results a scene shows, and which of their mirrors are windows, as it is now."""
+    """Return a function that restores which results a scene shows now, and which of their mirrors are windows."""
     results = [obj for obj in scene.objects if is_result(obj) and obj.library is None]
     mirrors = {mirror for obj in results for mirror in mirrors_of(obj)}
     shown = [(obj, tuple(getattr(obj, switch) for switch in SWITCHES), tuple(obj.reflection_mesh.aside))
@@ -81,8 +83,8 @@ def as_shown(scene: bpy.types.Scene) -> Callable[[], None]:
 
 
 def forget_deleted(scene: bpy.types.Scene) -> None:
-    """Let a scene and its markers look through no camera that was deleted: Blender would have forgotten it, did results
-    not know it."""
+    """Remove deleted cameras from a scene and its markers. Blender would do it if results did not refer to the cameras.
+    """
     markers = [marker for marker in scene.timeline_markers if marker.camera is not None]
     looking = {scene.camera, *(marker.camera for marker in markers)} - {None}
     gone = {camera for camera in looking if not camera.users_scene}
@@ -92,14 +94,14 @@ def forget_deleted(scene: bpy.types.Scene) -> None:
     for marker in markers:
         if marker.camera in gone & known:
             marker.camera = None
-    # one that was in no scene from the first is the user's own affair
+    # do not touch a camera that was never in a scene: the user chose it
     if scene.camera in gone and scene.reflection_mesh.seen_by == scene.camera:
         scene.camera = scene.reflection_mesh.seen_by = None
 
 
 @persistent
 def _after_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    # a render's depsgraph tells of nothing that has happened in the file
+    # a render's depsgraph reports no changes of the file
     if depsgraph.mode != "VIEWPORT":
         return
     if depsgraph.id_type_updated("COLLECTION"):

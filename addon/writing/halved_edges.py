@@ -1,4 +1,4 @@
-"""Faces cut until what is linear in a picture is so on them: UV maps and all else that faces interpolate."""
+"""Subdivide faces until values that are linear in an image, such as UV maps, are also nearly linear on the faces."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -9,13 +9,13 @@ import numpy as np
 
 from ..faults import Steps
 
-STRAYING = 0.1  # pixels, or texels where a pixel has several, by which what is shown may lie beside its place
-ROUNDS = 12     # of halving edges: an error falls to a quarter by each
+STRAYING = 0.1  # largest deviation in pixels, or in texels where a pixel has several
+ROUNDS = 12     # rounds of halving edges; each reduces the error to a quarter
 WRITING = "Writing"
 
 
 def halve_edges(mesh: bpy.types.Mesh, straying: Callable[[], np.ndarray]) -> Steps[None]:
-    """Halve the edges that `straying` tells, (n,) of their numbers, until it tells none."""
+    """Halve the edges that `straying` returns, as indices (n,), until it returns none."""
     for _ in range(ROUNDS):
         edges = straying()
         if not len(edges):
@@ -39,8 +39,10 @@ def halve_edges(mesh: bpy.types.Mesh, straying: Callable[[], np.ndarray]) -> Ste
 
 
 def edges_that_stray(mesh: bpy.types.Mesh, spots: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    """The edges whose middle, where what is seen at `spots` (n, 2), in pixels or texels, is divided by a `depth` (n,),
-    lies farther than `STRAYING` from the middle of their ends."""
+    """Return the indices of edges that deviate by more than `STRAYING`. The deviation is the distance between the
+    middle of the ends at `spots` (n, 2), in pixels or texels, and the perspective image of the edge's middle, with the
+    vertices at `depth` (n,).
+    """
     if not len(mesh.polygons):
         return np.empty(0, dtype=np.int64)
     ends = np.empty((len(mesh.edges), 2), dtype=np.int32)

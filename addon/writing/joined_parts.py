@@ -1,4 +1,5 @@
-"""What was joined to a result (Object > Join): no faces of it are written over, they become an object again."""
+"""Turn faces that the user joined to a result (Object > Join) into an object again, so that they are not overwritten.
+"""
 from __future__ import annotations
 
 import bpy
@@ -12,10 +13,11 @@ from .nodes import disc_nodes
 
 
 def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrNothing) -> bpy.types.Object | None:
-    """Make what was joined to a result an object beside it, where it is; None where there is nothing.
+    """Make a separate object of the parts that were joined to a result, at the same place. Return None if there are
+    none.
 
-    What Blender joins stands behind the result's own faces, and shares no vertex with them; what the user has made of
-    these in Edit Mode goes with them. The result itself is left as it is.
+    Blender appends joined parts after the result's own faces, without shared vertices. Changes of the user in Edit Mode
+    stay with them. The result itself is not changed.
     """
     own = _own_vertices(result) if result.type == "MESH" else 0
     if not own:
@@ -25,7 +27,7 @@ def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrN
     mesh.name = name = f"{result.name} Joined"
     _without(mesh, own)
     _keep_used_materials(mesh, [slot.material for slot in result.material_slots])
-    # by their names, one after another: each that goes moves the others
+    # by name, one after another: removing an attribute moves the others
     for attribute in OF_METHOD.intersection(mesh.attributes.keys()):
         mesh.attributes.remove(mesh.attributes[attribute])
     obj = bpy.data.objects.new(name, mesh)
@@ -36,17 +38,18 @@ def set_free(context: bpy.types.Context, result: bpy.types.Object, whole: AllOrN
 
 
 def told_of(result: bpy.types.Object, freed: bpy.types.Object | None) -> list[str]:
-    """A sentence on what `set_free` has made, where it has."""
+    """Return a sentence on the object that `set_free` has made, if any."""
     return [] if freed is None else [
         f"What was joined to '{result.name}' is an object of its own again: '{freed.name}'."]
 
 
 def _own_vertices(result: bpy.types.Object) -> int:
-    """How many vertices, the first ones, are the result's own; 0 where that are all, or where other faces or edges than
-    its own have some of these."""
+    """Return the number of vertices of the result's own, which come first. Return 0 if all vertices are its own, or if
+    other faces or edges use some of them.
+    """
     record, mesh = result.reflection_mesh, result.data
     if record.points:
-        # without the nodes that draw its points it was made another mesh (Object > Convert)
+        # a result without its disc nodes was converted to another mesh (Object > Convert)
         joined = len(mesh.vertices) > record.points and disc_nodes(result) is not None
         return record.points if joined else 0
     if not 0 < record.faces <= len(mesh.polygons):
@@ -65,7 +68,7 @@ def _own_vertices(result: bpy.types.Object) -> int:
 
 
 def _keep_used_materials(mesh: bpy.types.Mesh, shown: list) -> None:
-    """Let a mesh have those of the `shown` materials that its faces have."""
+    """Reduce the materials of a mesh to those of `shown` that its faces use."""
     used = np.zeros(len(mesh.polygons), dtype=np.int32)
     mesh.polygons.foreach_get("material_index", used)
     numbers, places = np.unique(used.clip(0, max(len(shown) - 1, 0)), return_inverse=True)
@@ -76,7 +79,7 @@ def _keep_used_materials(mesh: bpy.types.Mesh, shown: list) -> None:
 
 
 def _without(mesh: bpy.types.Mesh, vertices: int) -> None:
-    """Take the first vertices out of a mesh, with all that they are a part of."""
+    """Delete the first `vertices` vertices of a mesh, and all edges and faces that use them."""
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)

@@ -1,5 +1,6 @@
-"""What the user has changed on a result, kept when it is generated anew: where it was moved to, and which materials it
-was given. Hidden, renamed, parented and modified it stays without any help."""
+"""Changes that the user made to a result, kept when it is generated again: its transform and its replaced materials.
+Visibility, names, parents and modifiers are kept anyway.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -10,23 +11,23 @@ from mathutils import Matrix, Vector
 
 from .landmarks import applied_to, note_landmarks
 
-PREVIEW = "reflection_mesh_preview"  # custom property of the materials that are shown before there is light
-NEARLY = 1e-6   # of a transform's numbers, which Blender rounds
-NEARLY_APPLIED = 1e-5     # the same, told by vertices
+PREVIEW = "reflection_mesh_preview"  # custom property of preview materials, shown until there is light
+NEARLY = 1e-6   # relative tolerance of a transform's numbers, which Blender rounds
+NEARLY_APPLIED = 1e-5     # the same for transforms computed from vertices
 
 
 @dataclass(frozen=True)
 class Changes:
-    """What was changed on one result since it was generated.
+    """Changes of one result since it was generated.
 
     Attributes
     ----------
     moved : mathutils.Matrix or None
-        By what it was moved in world space; None where it was not.
+        Transform in world space by which it was moved; None if it was not moved.
     materials : list of (bpy.types.Material or None, str, bpy.types.Material or None)
-        As generated, where it was replaced ("DATA" or "OBJECT"), and by what.
+        For each replaced material the generated one, where it was replaced ("DATA" or "OBJECT"), and the new one.
     lost : list of str
-        What has no place on another mesh.
+        Names of changes that another mesh cannot keep.
     """
 
     moved: Matrix | None
@@ -35,7 +36,7 @@ class Changes:
 
 
 def changes_of(obj: bpy.types.Object) -> Changes:
-    """What the user has changed on a result; nothing where it does not know how it was generated."""
+    """Return the user's changes of a result. Return no changes if it does not know how it was generated."""
     record = obj.reflection_mesh
     lost = [what for what, there in (("shape keys", obj.data.shape_keys), ("vertex groups", len(obj.vertex_groups)))
             if there]
@@ -48,10 +49,10 @@ def _moved(obj: bpy.types.Object) -> Matrix | None:
     unmoved = Matrix.Translation(Vector(record.origin))
     if not basis.any() or _same(basis, obj.matrix_basis):
         return None
-    # a transform that was applied is in the mesh instead, and has moved nothing
+    # an applied transform is in the mesh instead, and has moved nothing
     applied = applied_to(obj)
     stands, nearly = obj.matrix_world @ applied, NEARLY if applied == Matrix.Identity(4) else NEARLY_APPLIED
-    # what a parent did since then moved it in both
+    # a parent's movement since then moved both
     above = obj.matrix_world @ obj.matrix_basis.inverted_safe()
     left = above @ Matrix(basis.tolist())
     if _same(unmoved, stands, nearly) or _same(left, stands, nearly):
@@ -76,7 +77,7 @@ def _replaced(obj: bpy.types.Object) -> list:
 
 
 def place(obj: bpy.types.Object, origin: np.ndarray, changes: Changes) -> None:
-    """Put a result where it was generated, or as far from there as it was moved."""
+    """Put a result where it was generated, and apply the user's movement, if any."""
     matrix = Matrix.Translation(origin)
     record = obj.reflection_mesh
     obj.matrix_world = matrix
@@ -88,8 +89,9 @@ def place(obj: bpy.types.Object, origin: np.ndarray, changes: Changes) -> None:
 
 
 def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes) -> list[str]:
-    """Note the materials of a result's new mesh and replace them again as the user did; returns a sentence on what
-    could not be kept, or none."""
+    """Record the materials of a result's new mesh and replace them again as the user did. Return a list with one
+    sentence on lost changes, or an empty list.
+    """
     record = obj.reflection_mesh
     record.materials.clear()
     for material in materials:
@@ -112,7 +114,9 @@ def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes)
 
 
 def place_of(obj: bpy.types.Object) -> Matrix:
-    """What takes a result's mesh to where it was generated, in world space, wherever it was moved since."""
+    """Return the matrix from a result's mesh to world space at the place where it was generated, even if it was moved
+    since.
+    """
     record = obj.reflection_mesh
     if not any(record.basis):
         return obj.matrix_world

@@ -1,15 +1,15 @@
-"""Vertices by which a result knows its mesh again after transforms have been applied to it (Object > Apply)."""
+"""Vertices that identify transforms which were applied to a result's mesh (Object > Apply)."""
 from __future__ import annotations
 
 import bpy
 import numpy as np
 from mathutils import Matrix
 
-NEARLY = 1e-4   # of the mesh's size, which single precision rounds, far from the origin by more
+NEARLY = 1e-4   # relative to the mesh's size; tolerance for single precision, larger far from the origin
 
 
 def note_landmarks(obj: bpy.types.Object) -> None:
-    """Note where three vertices that lie far apart and a fourth are in a result's own space."""
+    """Record the positions of three vertices far apart, and of a fourth one, in the space of a result."""
     record, places = obj.reflection_mesh, np.empty((len(obj.data.vertices), 3), dtype=np.float32)
     if not len(places):
         forget_landmarks(obj)
@@ -26,13 +26,14 @@ def note_landmarks(obj: bpy.types.Object) -> None:
 
 
 def forget_landmarks(obj: bpy.types.Object) -> None:
-    """For who moves the vertices of a result."""
+    """Forget the landmarks of a result whose vertices were moved deliberately."""
     obj.reflection_mesh.landmarks = 0, 0, 0, 0
 
 
 def applied_to(obj: bpy.types.Object) -> Matrix:
-    """What has been applied to a result's mesh since it was generated, of which the object's own transform is less;
-    nothing where the mesh was edited otherwise."""
+    """Return the transform that was applied to a result's mesh since it was generated. Return the identity if there is
+    none, or if the mesh was edited otherwise.
+    """
     record, nothing = obj.reflection_mesh, Matrix.Identity(4)
     numbers, vertices = list(record.landmarks), obj.data.vertices
     if not any(numbers) or max(numbers) >= len(vertices):
@@ -52,7 +53,7 @@ def applied_to(obj: bpy.types.Object) -> Matrix:
 
 
 def _frame(places: np.ndarray) -> np.ndarray:
-    """Three places, and one beside their plane as far as they are from each other, as columns (4, 4)."""
+    """Return three points, and a fourth one beside their plane at a similar distance, as columns (4, 4)."""
     across = np.cross(places[1] - places[0], places[2] - places[0])
     length = np.linalg.norm(across)
     beside = places[0] + (across / np.sqrt(length) if length else across)

@@ -1,6 +1,6 @@
-"""What a .blend file tells of earlier work, as JSON in its properties: read once, and believed as far as it can be.
+"""Records of earlier work, stored as JSON in properties of a .blend file. They are parsed once and validated.
 
-A file may come from anywhere: whatever is not what this extension writes counts as not there.
+A file may come from anywhere: anything that this extension does not write counts as missing.
 """
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class LightComparison(NamedTuple):
 
 
 def light_text(report: dict) -> str:
-    """The record of a report on caustics."""
+    """Return the record of a report on caustics as text."""
     last = {run["method"]: run for run in report["runs"]}
     flux = [one["flux_percent"] for one in report["light"].values() if one["flux_percent"] is not None]
     return json.dumps({
@@ -53,12 +53,12 @@ def light_text(report: dict) -> str:
 
 
 def light_comparison(text: str) -> LightComparison | None:
-    """What `light_text` wrote; None where the text is anything else."""
+    """Parse the text that `light_text` wrote; return None for any other text."""
     return _light_comparison(text) if len(text) <= LONGEST else None
 
 
 def comparison_text(report: dict) -> str:
-    """The record of a comparison's report."""
+    """Return the record of a comparison's report as text."""
     picture = report["picture"]["mirror"]
     return json.dumps({
         "results": report["results"], "resolution": report["resolution"],
@@ -68,12 +68,14 @@ def comparison_text(report: dict) -> str:
 
 
 def comparison(text: str) -> Comparison | None:
-    """What `comparison_text` wrote; None where the text is anything else."""
+    """Parse the text that `comparison_text` wrote; return None for any other text."""
     return _comparison(text) if len(text) <= LONGEST else None
 
 
 def counts(obj: bpy.types.Object) -> MappingProxyType:
-    """How much of each part of the method a result needed, by name; what is no count is left out."""
+    """Return counts of a result by name, which say how often each part of the method was used. Invalid counts are left
+    out.
+    """
     text = obj.reflection_mesh.counts
     return _counts(text) if len(text) <= LONGEST else NOTHING
 
@@ -87,10 +89,10 @@ def _comparison(text: str) -> Comparison | None:
     numbers = {name: known.get(name) for name in Comparison._fields[1:]}
     if not all(value is None or _is_number(value) for value in numbers.values()):
         return None
-    # without pixels to judge there is no number at all
+    # without pixels to compare there are no numbers at all
     if numbers["coverage"] is None and any(value is not None for value in numbers.values()):
         return None
-    for one, other in (("median", "p99"), ("ssim", "flip")):    # which come together
+    for one, other in (("median", "p99"), ("ssim", "flip")):    # pairs that occur together
         if (numbers[one] is None) != (numbers[other] is None):
             return None
     return Comparison(tuple(size), **numbers)
@@ -112,7 +114,7 @@ def _counts(text: str) -> MappingProxyType:
 
 
 def _entries(text: str) -> dict | MappingProxyType:
-    """The object that a JSON text holds; nothing where it holds none."""
+    """Return the object in a JSON text; empty if there is none."""
     try:
         known = json.loads(text)
     except (ValueError, RecursionError):

@@ -52,7 +52,7 @@ def forget_collection(scene: bpy.types.Scene) -> None:
 
 
 def _own(scene: bpy.types.Scene) -> bpy.types.Collection | None:
-    """The collection that was made for the results of this scene, where it is still in it."""
+    """Return the collection that was made for the results of this scene, if the scene still has it."""
     made = scene.reflection_mesh.collection
     return made if made is not None and made in scene.collection.children_recursive else None
 

@@ -17,11 +17,11 @@ from ...core import ReflectionMesh, View
 from ..reading import is_opaque, is_result, materials_of, mirrors_of
 from ..registration import Handlers
 
-RAYS = 200          # by which the view through a window is tried
-NEARLY = 1e-4       # of a ray's length: what lies in the image itself fights with it
-NEARER = 5e-4       # shift to the eye, of the distance from it (orthographic: of the image's size); > 2 NEARLY
-MOST_THROUGH = 100  # objects that a ray goes on through
-TOO_SHORT = 100.0   # steps of single precision: on a shorter way what is met hangs on these
+RAYS = 200          # number of rays that test the view through a window
+NEARLY = 1e-4       # relative to a ray's length; objects so close to the image flicker with it
+NEARER = 5e-4       # shift towards the eye, relative to the distance (orthographic: to the image's size); > 2 NEARLY
+MOST_THROUGH = 100  # number of objects that a ray may pass through
+TOO_SHORT = 100.0   # steps of single precision; on shorter rays the hit depends on rounding
 
 
 def open_window(mirror: bpy.types.Object) -> None:
@@ -39,7 +39,7 @@ def close_window(mirror: bpy.types.Object) -> None:
 
 
 def set_window(result: bpy.types.Object, placement: str) -> None:
-    """Make a window of a result's mirror, or none, as the placement asks for."""
+    """Make a window of a result's mirror, or close it, depending on the placement."""
     record = result.reflection_mesh
     record.window = placement == "VIRTUAL"
     for mirror in mirrors_of(result):
@@ -65,14 +65,14 @@ class InTheWay(NamedTuple):
 
 
 def what_is_in_the_way(context: bpy.types.Context, view: View, result: ReflectionMesh, mirrors: list) -> InTheWay:
-    """Find by rays what hides a virtual image, behind its mirror.
+    """Find objects that hide a virtual image, with rays from the mirror.
 
     Parameters
     ----------
     view : View
-        That the image was made for.
+        The view that the image was made for.
     mirrors : list of bpy.types.Object
-        All that are to be windows.
+        All mirrors that become windows.
     """
     if not len(result.positions):
         return InTheWay("", 0.0, False)
@@ -90,8 +90,9 @@ def what_is_in_the_way(context: bpy.types.Context, view: View, result: Reflectio
 
 
 def nearer(view: View, result: ReflectionMesh, found: InTheWay) -> ReflectionMesh:
-    """Draw a virtual image, if anything touches it, so little nearer that it is seen before that; its picture stays the
-    same."""
+    """If an object touches a virtual image, move the image slightly towards the eye so that it is visible. The picture
+    stays the same.
+    """
     if not found.touches:
         return result
     if view.orthographic:
@@ -102,14 +103,15 @@ def nearer(view: View, result: ReflectionMesh, found: InTheWay) -> ReflectionMes
 
 
 def _some(*places: np.ndarray) -> list[np.ndarray]:
-    """As many as are to be tried."""
+    """Return evenly spaced entries of each array, `RAYS` at most."""
     some = np.unique(np.linspace(0, len(places[0]) - 1, RAYS).astype(np.int64))
     return [own[some] for own in places]
 
 
 def _within_faces(result: ReflectionMesh, view: View) -> list[np.ndarray]:
-    """Places on the mirror, and on the image that is seen there, all over the picture: what is far has most of the
-    faces, and what is near most of the pixels."""
+    """Return two arrays (n, 3) of points on the mirror and on the image behind, spread evenly over the picture. Random
+    vertices would be no fair sample: most faces are far away, but most pixels are near.
+    """
     spots = view.pixels(result.mirror_position)[result.triangles]
     sides = spots[:, 1:] - spots[:, :1]
     area = np.nan_to_num(np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]))
@@ -128,7 +130,7 @@ def _within_faces(result: ReflectionMesh, view: View) -> list[np.ndarray]:
 
 
 def _spread(count: int) -> np.ndarray:
-    """Weights (count, 3) of places that lie all over a triangle (the sequence R2 of M. Roberts, 2018)."""
+    """Return weights (count, 3) of points spread evenly over a triangle (the sequence R2 of M. Roberts, 2018)."""
     u, v = ((0.5 + np.outer((0.7548776662466927, 0.5698402909980532), np.arange(count))) % 1.0)
     beyond = u + v > 1.0
     u, v = np.where(beyond, 1.0 - u, u), np.where(beyond, 1.0 - v, v)
@@ -165,7 +167,7 @@ def close_abandoned_windows() -> None:
     hidden = [obj for obj in bpy.data.objects if obj.reflection_mesh.camera_hidden]
     if not hidden:
         return
-    # what is deleted may live on where something still points to it, but in no scene
+    # deleted objects that are still referenced exist without a scene
     shown = {mirror for scene in bpy.data.scenes for obj in scene.objects
              if is_result(obj) and _needs_window(obj.reflection_mesh) for mirror in mirrors_of(obj)}
     for obj in hidden:
@@ -174,13 +176,13 @@ def close_abandoned_windows() -> None:
 
 
 def _needs_window(record: bpy.types.PropertyGroup) -> bool:
-    # results without a camera are of earlier versions, which did not note it
+    # results of earlier versions have no camera and did not record windows
     return (record.window and not any(record.aside)) or record.camera is None
 
 
 @persistent
 def _after_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    # a render's depsgraph tells of nothing that has happened in the file
+    # a render's depsgraph reports no changes of the file
     if depsgraph.mode == "VIEWPORT":
         close_abandoned_windows()
 

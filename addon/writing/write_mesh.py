@@ -7,12 +7,12 @@ import numpy as np
 from .. import compat
 from .arrays import Edges, Lines, MeshArrays
 
-# where the values of an attribute lie, by its type; all others call it "value"
+# property that holds the values of an attribute, by its type; "value" for all others
 FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}
 
 
 def write_mesh(mesh: bpy.types.Mesh, arrays: MeshArrays) -> None:
-    """Fill `mesh` anew; whatever geometry and materials it had are replaced."""
+    """Fill `mesh` anew. Its geometry and materials are replaced."""
     mesh.clear_geometry()
     mesh.vertices.add(len(arrays.positions))
     mesh.attributes["position"].data.foreach_set("vector", arrays.positions.reshape(-1))
@@ -37,7 +37,7 @@ def _write_faces(mesh: bpy.types.Mesh, triangles: np.ndarray, edges: Edges) -> N
     mesh.edges.add(len(edges.ends))
     mesh.loops.add(triangles.size)
     mesh.polygons.add(len(triangles))
-    # by these names, as one block each: by the elements' own properties it takes a hundred times as long
+    # by these names whole arrays are copied: the elements' own properties take a hundred times as long
     for name, values in ((".edge_verts", edges.ends), (".corner_vert", triangles), (".corner_edge", edges.of_side)):
         mesh.attributes[name].data.foreach_set("value", values.reshape(-1))
     mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))

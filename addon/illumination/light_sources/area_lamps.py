@@ -14,8 +14,9 @@ SHEARED = 1e-2  # cosine of two axes of a lamp: with more of it they are not at 
 
 
 def is_sheared(lamp: bpy.types.Object) -> bool:
-    """Whether an object is an area lamp whose axes are not at right angles: Cycles' samples of such a lamp are not
-    those of any shape, and its direct light is another than what its rays meet."""
+    """Return True for an area lamp whose axes are not at right angles. Cycles' samples of such a lamp fit no shape, and
+    its direct light differs from what its rays meet.
+    """
     if lamp.type != "LIGHT" or lamp.data.type != "AREA":
         return False
     axes = np.array(lamp.matrix_world, dtype=np.float64)[:3, :3]
@@ -25,8 +26,9 @@ def is_sheared(lamp: bpy.types.Object) -> bool:
 
 def across_area(data: bpy.types.AreaLight, axes: np.ndarray, scale: np.ndarray,
                 count: int) -> tuple[np.ndarray, float]:
-    """Places (count, 3) on an area lamp, from its middle, and the area that Cycles takes it for, by its unit `axes`
-    (3, 3), as columns, and its `scale` (3,) along these."""
+    """Return points (count, 3) on an area lamp relative to its middle, and the area that Cycles assumes for it. `axes`
+    (3, 3) are its unit axes as columns, `scale` (3,) the scale along them.
+    """
     size = np.array((data.size, data.size_y if data.shape in {"RECTANGLE", "ELLIPSE"} else data.size)) * scale[:2]
     is_round = data.shape in {"DISK", "ELLIPSE"}
     spots = 0.5 * disc(count) if is_round else _square(count)
@@ -34,12 +36,12 @@ def across_area(data: bpy.types.AreaLight, axes: np.ndarray, scale: np.ndarray,
 
 
 def rays_meet(axes: np.ndarray) -> float:
-    """How much larger an area lamp is that rays meet than what Cycles takes it for, by its unit axes (3, 3)."""
+    """Return the ratio of the area that rays meet to the area that Cycles assumes, by the lamp's unit axes (3, 3)."""
     return 1.0 / abs(np.linalg.det(axes))
 
 
 def spread_of(spread: float) -> tuple[float, float]:
-    """The cotangent of half an area lamp's spread, and what makes up for what that takes."""
+    """Return the cotangent of half an area lamp's spread, and the factor that restores its power."""
     half = 0.5 * max(float(spread), SPREAD_LEAST)
     if half >= 0.5 * np.pi - 1e-6:
         return 0.0, 1.0
@@ -48,13 +50,13 @@ def spread_of(spread: float) -> tuple[float, float]:
 
 
 def disc(count: int) -> np.ndarray:
-    """Places (count, 2) spread evenly over the unit disc, by the golden angle; the middle for one."""
+    """Return points (count, 2) spread evenly over the unit disc, by the golden angle; the middle if count is 1."""
     number = np.arange(count)
     radius, angle = np.sqrt((number + 0.5) / count) * (count > 1), number * np.pi * (3.0 - np.sqrt(5.0))
     return np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
 
 
 def _square(count: int) -> np.ndarray:
-    """Places (count, 2) spread evenly over the square from -1/2 to 1/2: a lattice of rank one."""
+    """Return points (count, 2) spread evenly over the square from -1/2 to 1/2, a rank-1 lattice."""
     number = np.arange(count)
     return np.stack((((number + 0.5) / count) - 0.5, (number * 0.6180339887498949 + 0.5) % 1.0 - 0.5), axis=1)

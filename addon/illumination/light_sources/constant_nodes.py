@@ -1,4 +1,4 @@
-"""What nodes that say the same everywhere give to a socket: numbers, colours, and the colour of a black body."""
+"""Evaluate nodes with constant results: numbers, colours, and the colour of a black body."""
 from __future__ import annotations
 
 import bpy
@@ -18,8 +18,7 @@ COLDEST, HOTTEST = 800.0, 12000.0     # K: Cycles knows no other colours
 
 
 def constant(socket: bpy.types.NodeSocket) -> np.ndarray | None:
-    """The number, or red, green and blue (3,), that a socket is given, or takes as such; None where nodes tell another
-    one here and there, or in a way that is not known."""
+    """Return the constant number or colour (3,) of a socket. Return None if it varies or comes from unknown nodes."""
     if not socket.is_linked:
         return plain(socket)
     node = node_behind(socket)
@@ -33,13 +32,13 @@ def constant(socket: bpy.types.NodeSocket) -> np.ndarray | None:
 
 
 def black_body(kelvin: float) -> np.ndarray:
-    """Linear red, green and blue (3,) of the light of a black body, of luminance 1; none below 0.
+    """Return the linear red, green and blue (3,) of black-body light with luminance 1, never negative.
 
     M. Planck's law, seen by the observer of C. Wyman, P.-P. Sloan and P. Shirley, "Simple Analytic Approximations to
     the CIE XYZ Color Matching Functions", Journal of Computer Graphics Techniques 2 (2013).
     """
     exponent = SECOND_RADIATION / (WAVES * min(max(kelvin, COLDEST), HOTTEST))
-    # what it sends at other waves does not matter to its colour: as a share of that at the longest
+    # relative to the longest wavelength, since only the ratios matter for the colour
     light = np.exp(exponent.min() - exponent) / WAVES**5 / (1.0 - np.exp(-exponent))
     xyz = np.array([sum(height * np.exp(-0.5 * ((WAVES - middle) * np.where(WAVES < middle, left, right))**2)
                         for height, middle, left, right in lobes) @ light for lobes in OBSERVER])
@@ -47,6 +46,6 @@ def black_body(kelvin: float) -> np.ndarray:
 
 
 def plain(socket: bpy.types.NodeSocket) -> np.ndarray:
-    """A socket's own number, or red, green and blue."""
+    """Return a socket's own number, or its red, green and blue."""
     value = np.array(socket.default_value, dtype=np.float64)
     return value[:3] if value.ndim else value

@@ -1,4 +1,4 @@
-"""One place on a lamp, and how much of its light goes where."""
+"""One point on a lamp, and the distribution of its light."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ NARROWEST = 4e-3  # radians: what a lamp's light is split for, as if its cone we
 
 @dataclass(frozen=True)
 class Eye:
-    """A place on a lamp.
+    """A point on a lamp.
 
     Attributes
     ----------
@@ -22,19 +22,19 @@ class Eye:
     power : (3,) float64
         Red, green and blue: intensity along the axis in W/sr, or a sun's irradiance in W/m2.
     axes : (3, 3) float64
-        World axes x, y, z of the lamp, unit columns, at right angles unless it is sheared; it shines along -z. Of a
-        spot lamp, whose cone is drawn out as it is scaled, what turns ways @ axes into its own space.
+        Axes x, y, z of the lamp in world space, as unit columns; orthogonal unless the lamp is sheared. It shines along
+        -z. For a spot lamp, whose cone is stretched by its scale, `directions @ axes` are directions in its own space.
     kind : str
-        As `bpy.types.Light.type`.
+        See `bpy.types.Light.type`.
     cone : tuple of float
-        Of a spot lamp the cosine of half its angle and the width of the blend beside it; of an area lamp the
-        cotangent of half its spread and what makes up for it.
+        Spot lamp: cosine of half its angle, and width of the blend. Area lamp: cotangent of half its spread, and the
+        factor that restores its power.
     facets : (k, 3) float64, optional
-        Of a mesh that is taken as one place: its triangles' normals, as long as their area.
+        Mesh that is taken as one point: normals of its triangles, as long as their areas.
     body : core.TriangleMesh, optional
-        What of the lamp itself may stand before this place.
+        Parts of the lamp that may occlude this point.
     soft : (3,) float64 and float, optional
-        Middle and radius of a point or spot lamp with a soft falloff, where that counts.
+        Middle and radius of a point or spot lamp with a soft falloff, where that matters.
     """
 
     lamp: Lamp
@@ -48,7 +48,7 @@ class Eye:
 
     @property
     def shining(self) -> Lamp:
-        """The lamp with its pattern."""
+        """Return the lamp with its distribution of light."""
         if self.kind in {"POINT", "SUN"} and self.facets is None and self.soft is None:
             return self.lamp
         if self.facets is not None or self.kind == "POINT":
@@ -61,8 +61,7 @@ class Eye:
         return replace(self.lamp, pattern=self.share, narrow=max(narrow, NARROWEST), cone=(-self.axes[:, 2], half))
 
     def _drawn_cone(self) -> tuple[np.ndarray, float, float]:
-        """The axis (3,) of a spot lamp's cone in the world, and the angles from it that its rim has at most, and at
-        least."""
+        """Return the axis (3,) of a spot lamp's cone in world space, and the largest and smallest angles of its rim."""
         sine, angle = np.sqrt(max(1.0 - self.cone[0]**2, 0.0)), np.linspace(0.0, 2.0 * np.pi, RIM, endpoint=False)
         rim = np.stack((sine * np.cos(angle), sine * np.sin(angle), np.full(RIM, -self.cone[0])))
         axis, rim = (np.linalg.solve(self.axes.T, ways) for ways in (np.array((0.0, 0.0, -1.0)), rim))
@@ -71,7 +70,7 @@ class Eye:
         return axis, float(off.max()) * BETWEEN, float(off.min())
 
     def share(self, places: np.ndarray) -> np.ndarray:
-        """How much of the power goes towards `places` (..., 3)."""
+        """Return the share of the power that goes towards `places` (..., 3)."""
         if self.facets is not None:
             return self._seen_area(places)
         if self.kind in {"POINT", "SUN"}:
@@ -91,7 +90,9 @@ class Eye:
         return cosine * np.maximum(1.0 - self.cone[0] * tangent, 0.0) * self.cone[1]
 
     def _softly(self, places: np.ndarray) -> np.ndarray:
-        """How much of what its middle would send a disc sends that faces each of `places` (..., 3)."""
+        """Return the light at `places` (..., 3) of a disc that faces each of them, relative to that of a point at its
+        middle.
+        """
         if self.soft is None:
             return np.ones(places.shape[:-1])
         middle, radius = self.soft
@@ -99,8 +100,9 @@ class Eye:
         return squared / (squared + radius**2)
 
     def _seen_area(self, places: np.ndarray) -> np.ndarray:
-        """The area of the mesh as it is seen from `places` (..., 3): a way through a convex one meets two triangles
-        that face each other, or one at its open side."""
+        """Return the area of the mesh as seen from `places` (..., 3). A ray through a convex mesh meets two triangles
+        that face each other, or one if the mesh is open.
+        """
         way = (places - self.lamp.place).reshape(-1, 3)
         way = way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
         through = np.abs(way @ self.facets.sum(axis=0))
@@ -111,7 +113,7 @@ class Eye:
 
 
 def across(way: np.ndarray) -> np.ndarray:
-    """Two unit vectors across a way (3,), as columns (3, 2)."""
+    """Return two orthogonal unit vectors perpendicular to a direction (3,), as columns (3, 2)."""
     length = np.linalg.norm(way)
     if not length > 0.0:
         return np.eye(3)[:, :2]
@@ -123,6 +125,6 @@ def across(way: np.ndarray) -> np.ndarray:
 
 
 def facing(way: np.ndarray) -> np.ndarray:
-    """Three unit vectors at right angles, as columns (3, 3), the last one along a way (3,)."""
+    """Return three orthogonal unit vectors as columns (3, 3), the last one along a direction (3,)."""
     first, second = across(way).T
     return np.stack((first, second, np.cross(first, second)), axis=1)

@@ -9,8 +9,9 @@ BY_CHILDREN = {"VERTS", "FACES"}
 
 
 def instancers_of_lamps(context: bpy.types.Context) -> list:
-    """The objects of the view layer that are seen and instance lamps: those that are selected, or all of them where no
-    lamp is."""
+    """Return the visible objects of the view layer that instance lamps: the selected ones, or all if no lamp is
+    selected.
+    """
     objects = context.view_layer.objects
     all_of_them, is_seen = not any(obj.type == "LIGHT" and obj.select_get() for obj in objects), seen_in(context)
     return [obj for obj in objects if (all_of_them or obj.select_get()) and _instances_lamps(obj) and is_seen(obj)]

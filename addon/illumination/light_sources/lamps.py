@@ -32,12 +32,12 @@ class NoLight(ReflectionError):
 
 
 def chosen_lamps(context: bpy.types.Context) -> list:
-    """Those of the lamps that are meant that light the view layer's renders.
+    """Return the lamps that are meant and that light renders of the view layer.
 
     Raises
     ------
     ReflectionError
-        Where there are none.
+        If there are none.
     """
     lamps = _meant(context, list(filter(seen_in(context), context.view_layer.objects)))
     if not lamps:
@@ -46,25 +46,26 @@ def chosen_lamps(context: bpy.types.Context) -> list:
 
 
 def meant_lamps(context: bpy.types.Context) -> list:
-    """As `chosen_lamps`, but of all lamps: those too that are hidden at the moment.
+    """Return the lamps that are meant, including those hidden at the moment, see `chosen_lamps`.
 
     Raises
     ------
     ReflectionError
-        Where there are none.
+        If there are none.
     """
     lamps = _meant(context, list(context.view_layer.objects))
     return lamps or chosen_lamps(context)
 
 
 def is_glint(obj: bpy.types.Object) -> bool:
-    """Whether an object is the image of a lamp in mirrors, not a lamp of its own."""
+    """Return True for an object that is the image of a lamp in mirrors and not a lamp itself."""
     return GLINT in obj
 
 
 def _meant(context: bpy.types.Context, objects: list) -> list:
-    """Of some objects the selected lamps, and meshes that emit light; where none is selected that of active caustics,
-    else all lamps but meshes. A portal gives no light of its own, nor does the image of a lamp."""
+    """Return the selected lamps and emitting meshes among `objects`. If none is selected, return the lamp of the active
+    caustics, else all lamps except meshes. Portals and images of lamps are ignored.
+    """
     objects = [obj for obj in objects if not (_is_portal(obj) or is_glint(obj))]
     active = context.view_layer.objects.active
     own = [obj for obj in objects if active is not None and active.reflection_mesh.role == "CAUSTICS"
@@ -79,8 +80,9 @@ def _is_portal(lamp: bpy.types.Object) -> bool:
 
 
 def is_met(lamp: bpy.types.Object) -> bool:
-    """Whether rays that mirrors send can meet the lamp, so that Cycles shows it in them and makes caustics of its own:
-    one that has a size, and that Cycles samples by such rays too; other engines have no such switch."""
+    """Return True if rays from mirrors can hit the lamp, so that Cycles shows it in mirrors and makes its own caustics.
+    Then it has a size, and Cycles samples it by such rays. Other engines have no such switch.
+    """
     data, own = lamp.data, getattr(lamp.data, "cycles", None)
     if not lamp.visible_glossy:
         return False
@@ -93,13 +95,13 @@ def is_met(lamp: bpy.types.Object) -> bool:
 
 
 def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, towards: np.ndarray) -> list[Eye]:
-    """A lamp as `count` places of equal power, spread evenly over what lights the places `towards` (n, 3), or one
-    of them (3,); its middle for one.
+    """Return a lamp as `count` points of equal power, spread evenly over the part that lights `towards`, points (n, 3)
+    or one point (3,). For count 1, return its middle.
 
     Raises
     ------
     ReflectionError
-        Where the lamp's place is no finite number; `NoLight` where it gives none.
+        If the lamp's position is not finite; `NoLight` if it emits no light.
     """
     evaluated, towards = lamp.evaluated_get(depsgraph), np.atleast_2d(towards)
     data, matrix = evaluated.data, np.array(evaluated.matrix_world, dtype=np.float64)
@@ -128,7 +130,7 @@ def eyes_of(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int, 
         return [Eye(Lamp.shining(way), power / count, axes, "SUN", (0.0, 0.0)) for way in ways]
     if data.type == "AREA":
         offsets, area = across_area(data, axes, length, count)
-        # of one that is sheared rays meet more than the area by which Cycles divides
+        # rays meet more of a sheared lamp than the area by which Cycles divides
         power, cone = power / np.pi * _of_size(data, area, 1.0) * rays_meet(axes), spread_of(data.spread)
     else:
         radius = data.shadow_soft_size
@@ -152,7 +154,7 @@ def _has_volume(axes: np.ndarray) -> bool:
 
 
 def _strength(data: bpy.types.Light) -> np.ndarray:
-    """Red, green and blue (3,) of a lamp's power, whatever its size."""
+    """Return red, green and blue (3,) of a lamp's power, regardless of its size."""
     power = np.array(data.color, dtype=np.float64) * data.energy * 2.0**getattr(data, "exposure", 0.0)
     if getattr(data, "use_temperature", False):
         power = power * np.array(data.temperature_color, dtype=np.float64)
@@ -160,15 +162,16 @@ def _strength(data: bpy.types.Light) -> np.ndarray:
 
 
 def _of_size(data: bpy.types.Light, size: float, normalised: float) -> float:
-    """What a lamp's power is multiplied by: its size, where that counts. Cycles takes one without any for one of 1."""
+    """Return the factor of a lamp's power: its size if it is not normalised. Cycles uses 1 for lamps without size."""
     if getattr(data, "normalize", True):
         return normalised
     return float(size) if size > 0.0 else 1.0
 
 
 def light_of_nodes(data: bpy.types.Light) -> tuple[np.ndarray, bool]:
-    """What a lamp's nodes make of red, green and blue of its light, and whether that is all that they tell: what is
-    plugged into an Emission counts as if it were not, but for what says the same everywhere."""
+    """Return the factors of red, green and blue by a lamp's nodes, and True if these are known completely. Variable
+    inputs of an Emission count with their unlinked value.
+    """
     if not compat.uses_nodes(data):
         return np.ones(3), True
     output = shown_output(data.node_tree)

@@ -15,21 +15,20 @@ from .constant_nodes import constant
 from .eye import Eye, across
 
 EMISSION = {"EMISSION": ("Color", "Strength"), "BSDF_PRINCIPLED": ("Emission Color", "Emission Strength")}
-MANY = 1 << 14  # places that stand for all of a mesh
+MANY = 1 << 14  # number of points that represent a whole mesh
 GOLDEN = 0.6180339887498949
-IN_PLANE = 1e-6  # of the lamp's size: what lies nearer to a plane lies in it
+IN_PLANE = 1e-6  # relative to the lamp's size; tolerance for points in a plane
 
 
 def is_mesh_lamp(obj: bpy.types.Object) -> bool:
-    """Whether an object is a mesh that emits light, of one colour for each of its materials."""
+    """Return True for a mesh that emits light, with one colour for each of its materials."""
     materials = [slot.material for slot in obj.material_slots]
     return (obj.type == "MESH" and obj.reflection_mesh.role == "AUTO" and not any(map(is_mirror, materials))
             and any(radiance_of(material).any() for material in materials))
 
 
 def radiance_of(material: bpy.types.Material | None) -> np.ndarray:
-    """Red, green and blue of what a material emits, in W/m2/sr; zeros where it emits none, or not everywhere the
-    same."""
+    """Return the radiance (3,) of a material in W/m2/sr; zeros if it emits none or varies over the surface."""
     shader = surface_shader(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     if shader is None or shader.type not in EMISSION:
         return np.zeros(3)
@@ -41,12 +40,12 @@ def radiance_of(material: bpy.types.Material | None) -> np.ndarray:
 
 def eyes_of_mesh(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: int,
                  towards: np.ndarray) -> list[Eye]:
-    """A mesh as `count` places spread evenly over the power of what emits; its middle for one.
+    """Return a mesh as `count` points spread evenly over its emitted power. For count 1, return its middle.
 
     Parameters
     ----------
     towards : (n, 3) float64
-        What is lit. Of a place that lights it by both of its sides, there are two.
+        Lit points. A point that lights them from both of its sides is returned twice.
     """
     scene = read_scene(depsgraph, [lamp])
     mesh = scene.mesh
@@ -68,7 +67,7 @@ def eyes_of_mesh(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: 
         values[_along_a_curve(corners.mean(axis=1))] for values in (corners, facets, area, radiance, weight))
     normals = facets / area[:, None]
     triangle, places = _spread(corners, weight, count)
-    # as much power for each place, but for what so few of them miss of the light that the middle gets
+    # equal power for all points, corrected for the light that the few points miss at the middle
     power = weight.sum() / count * _made_up(corners, weight, normals, (triangle, places), towards.mean(axis=0))
     found = []
     for index, place, share in zip(triangle, places, power):
@@ -86,8 +85,9 @@ def eyes_of_mesh(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object, count: 
 
 def _made_up(corners: np.ndarray, weight: np.ndarray, normals: np.ndarray, chosen: tuple,
              middle: np.ndarray) -> np.ndarray:
-    """By how much more (count,) than its share each of the `chosen` places (triangles, places) sends, so that those on
-    the triangles that face the `middle` (3,) light it as all of these do, and those on the others too."""
+    """Return the factor (count,) that corrects the power of the chosen points (triangles, places). Then the points on
+    the triangles that face `middle` (3,) light it like all of these triangles do, and the others accordingly.
+    """
     def sent(triangle: np.ndarray, places: np.ndarray) -> np.ndarray:
         way = middle - places
         return np.einsum("ij,ij->i", way, normals[triangle]) / np.maximum((way**2).sum(axis=1), 1e-300)**1.5
@@ -101,7 +101,7 @@ def _made_up(corners: np.ndarray, weight: np.ndarray, normals: np.ndarray, chose
 
 
 def _along_a_curve(points: np.ndarray) -> np.ndarray:
-    """An order (n,) of points in which neighbours are near each other: Morton's."""
+    """Return an order (n,) of points in which neighbours are close to each other (Morton's curve)."""
     low = points.min(axis=0)
     cell = ((points - low) / max(float(np.ptp(points, axis=0).max()), 1e-300) * 1023.0).astype(np.int64)
     code = np.zeros(len(points), dtype=np.int64)
@@ -112,19 +112,19 @@ def _along_a_curve(points: np.ndarray) -> np.ndarray:
 
 
 def _of(mesh: TriangleMesh, chosen: np.ndarray) -> TriangleMesh | None:
-    """Those of a mesh's triangles that are chosen; None where none is."""
+    """Return the triangles of a mesh that are `chosen` (m,) bool; None if there are none."""
     return TriangleMesh(mesh.positions, mesh.triangles[chosen]) if chosen.any() else None
 
 
 def _spread(corners: np.ndarray, weight: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """In which triangles (count,) places (count, 3) lie that are spread evenly by weight: a lattice of rank one."""
+    """Return triangles (count,) and points (count, 3) on them, spread evenly by weight, from a rank-1 lattice."""
     number = np.arange(count)
     ends = np.cumsum(weight) / weight.sum()
     along = (number + 0.5) / count
     triangle = np.minimum(np.searchsorted(ends, along), len(weight) - 1)
     inside = (along - (ends - weight / weight.sum())[triangle]) / (weight / weight.sum())[triangle]
     beside = (number * GOLDEN + 0.5) % 1.0
-    # of the unit square to the triangle, areas kept
+    # map the unit square to the triangle, preserving areas
     root = np.sqrt(np.clip(inside, 0.0, 1.0))
     shares = np.stack((1.0 - root, root * (1.0 - beside), root * beside), axis=1)
     return triangle, np.einsum("ij,ijk->ik", shares, corners[triangle])

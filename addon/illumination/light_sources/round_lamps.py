@@ -17,8 +17,9 @@ FAR = 1e4  # squared distances from a lamp, in squared radii: beyond that a disc
 
 
 def ball(count: int) -> np.ndarray:
-    """Places (count, 3) spread through the unit ball, which cover the disc across its z as `disc` does and that across
-    any other way nearly as evenly; the middle for one."""
+    """Return points (count, 3) in the unit ball. Seen along z they cover the disc like `disc` does, and from other
+    directions nearly as evenly. For count 1, return the middle.
+    """
     places, number = disc(count), np.arange(count)
     if count == 1:
         return np.zeros((1, 3))
@@ -31,8 +32,9 @@ def ball(count: int) -> np.ndarray:
 
 
 def falls_softly(data: bpy.types.Light, place: np.ndarray, towards: np.ndarray) -> bool:
-    """Whether what a point or spot lamp at a place (3,) sends towards places (n, 3), and all between them, is less for
-    its being a disc."""
+    """Return True if the soft falloff of a point or spot lamp at `place` (3,) matters in the box of `towards` (n, 3),
+    since the lamp counts as a disc.
+    """
     if not data.use_soft_falloff:
         return False
     off = np.maximum(np.maximum(towards.min(axis=0) - place, place - towards.max(axis=0)), 0.0)

@@ -1,6 +1,6 @@
-"""What mirrors make of a lamp's light: their colours, by angle and by place, and the parts of each that have one.
+"""Compute the light that mirrors reflect: their colours by angle and position, and their parts of one colour.
 
-In come mirrors as they were read, with their materials; out come parts of one tint, and what is left of light.
+Input are mirrors with their materials. Output are parts with one tint, and the remaining light.
 """
 from .lobes import is_bumped
 from .mirror_colours import MirrorColours

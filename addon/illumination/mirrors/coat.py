@@ -1,4 +1,4 @@
-"""What share of light a mirror sends back that lets some of it into itself, by the angle."""
+"""Compute the reflectance by angle of mirrors that also transmit light, such as glass and lacquer."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -14,23 +14,23 @@ BY_COAT = ("Coat Weight", "Coat Roughness", "Coat IOR")
 
 @dataclass(frozen=True)
 class Coat:
-    """The share of what mirrors in a material.
+    """The reflectance of the mirror in a material, by angle.
 
     Attributes
     ----------
     factor : float
     ior : float
-        Where it is none of 0, the share is as much of what a dielectric of this refractive index reflects.
+        If not 0, the share is multiplied by the reflectance of a dielectric with this refractive index.
     from_within : bool
-        Whether the inverse index counts at backs, as of what light meets from within.
+        Use the inverse index at back faces, which light meets from inside.
     facing : float
-        Where it is none of 0, the share is what the cosine, to this power, leaves.
+        If not 0, the share is `1 - cos(theta) ** facing`.
     rest : bool
-        Whether it is what all that leaves.
+        The share is the complement, 1 minus the share so far.
     opacity : float
-        How opaque the material is: all of it counts as much.
+        Opacity of the material, a factor of everything.
     within : Coat, optional
-        What is left to all of it, where it is mixed itself.
+        Share of all this in an outer mix.
     """
 
     factor: float = 1.0
@@ -42,7 +42,7 @@ class Coat:
     within: Coat | None = None
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
-        """The share by the cosine of the angle of incidence, negative at backs."""
+        """Return the share by the cosine of the angle of incidence, negative at back faces."""
         share, c = np.full(cosine.shape, self.factor), np.clip(np.abs(cosine), 0.0, 1.0)
         if self.ior:
             inside = (cosine < 0.0) & self.from_within
@@ -54,9 +54,9 @@ class Coat:
 
 
 def _reflectance(ior: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """What a dielectric reflects at the cosine c of the angle of incidence; all of it beyond the critical angle.
+    """Return the reflectance of a dielectric at the cosine `c` of the angle of incidence; 1 beyond the critical angle.
 
-    As `fresnel_dielectric_cos` of Cycles' kernel has it.
+    Same formula as `fresnel_dielectric_cos` of Cycles' kernel.
     """
     g = np.sqrt(np.maximum(ior**2 - 1.0 + c**2, 0.0))
     a, b = (g - c) / np.maximum(g + c, 1e-300), (c * (g + c) - 1.0) / (c * (g - c) + 1.0)
@@ -68,8 +68,9 @@ WHOLE = Coat()
 
 @dataclass(frozen=True)
 class Gloss:
-    """What a shader that is no metal mirrors: a colour (3,), and its share by the angle, or, for what is metal in part,
-    by the metal's Fresnel; whether that is known all over."""
+    """The reflection of a non-metallic shader: its `colour` (3,), its share by angle (`coat`), or, if `metal` (partly
+    metallic), the metal's Fresnel; and `known`, True if these hold all over the surface.
+    """
 
     colour: np.ndarray
     coat: Coat
@@ -78,7 +79,9 @@ class Gloss:
 
 
 def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
-    """What glass, water, lacquer, or metal in part mirror; None where a shader does not mirror sharply."""
+    """Return the reflection of glass, water, lacquer or partly metallic shaders; None if a shader does not reflect
+    sharply.
+    """
     if shader is None:
         return None
     if shader.type == "BSDF_GLASS" and is_sharp(shader):
@@ -103,8 +106,9 @@ def gloss_of(shader: bpy.types.Node | None) -> Gloss | None:
 
 
 def layers_of(shader: bpy.types.Node) -> tuple[Coat, Coat | None, bool] | None:
-    """What a Principled BSDF's coat leaves to what is below, what it mirrors itself where that is sharp, and whether
-    both are known all over; None where there is no coat."""
+    """Return what a Principled BSDF's coat transmits to the layers below, what it reflects itself (None if not sharp),
+    and True if both are fully known. Return None if there is no coat.
+    """
     weight, rough, index = (shader.inputs[name].default_value for name in BY_COAT)
     if not weight > 0.0:
         return None if _plain(shader, "Coat Weight") else (WHOLE, None, False)
@@ -114,7 +118,7 @@ def layers_of(shader: bpy.types.Node) -> tuple[Coat, Coat | None, bool] | None:
 
 
 def as_opaque(coat: Coat, shader: bpy.types.Node) -> tuple[Coat, bool]:
-    """What a shader mirrors where it is as opaque as it is, and whether that is known all over the mirror."""
+    """Return the share of a shader times its opacity, and True if that is constant over the mirror."""
     alpha = shader.inputs.get("Alpha")
     if alpha is None:
         return coat, True
@@ -122,7 +126,7 @@ def as_opaque(coat: Coat, shader: bpy.types.Node) -> tuple[Coat, bool]:
 
 
 def share_of(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
-    """What the factor of a Mix Shader is, and whether that is all over the mirror."""
+    """Return the share of a Mix Shader's factor, and True if it is constant over the mirror."""
     if not factor.is_linked:
         return Coat(factor.default_value), True
     source = factor.links[0].from_socket
@@ -131,7 +135,7 @@ def share_of(factor: bpy.types.NodeSocket) -> tuple[Coat, bool]:
         if node.type == "FRESNEL":
             return Coat(ior=max(node.inputs["IOR"].default_value, LEAST), from_within=True), True
         if node.type == "LAYER_WEIGHT":
-            # as Cycles' `svm_node_layer_weight` has it
+            # same formulas as `svm_node_layer_weight` of Cycles
             blend = node.inputs["Blend"].default_value
             if source.name == "Fresnel":
                 return Coat(ior=1.0 / max(1.0 - blend, LEAST), from_within=True), True

@@ -21,11 +21,11 @@ class Lobe:
     ----------
     shader : bpy.types.Node
     share : Coat
-        What the mixes on the way to it leave to it.
+        Its share in the mixes on the way to it.
     known : bool
-        Whether that is so all over the material.
+        True if that holds all over the material.
     groups : tuple of bpy.types.Node
-        The groups that it is in, from outside.
+        The groups that contain it, from outside to inside.
     """
 
     shader: bpy.types.Node
@@ -34,8 +34,9 @@ class Lobe:
     groups: Groups
 
     def told(self, name: str) -> tuple[np.ndarray, bool]:
-        """The number, or red, green and blue (3,), that a socket is given, be it by a group's own socket; and whether
-        nothing else is plugged into it."""
+        """Return the number or the colour (3,) of a socket, possibly from a group's own socket, and True if it is
+        constant.
+        """
         socket, _ = outermost(self.shader.inputs[name], self.groups)
         value = np.array(socket.default_value, dtype=np.float64)
         return value[:3] if value.ndim else value, not socket.is_linked
@@ -52,7 +53,7 @@ class Lobe:
 
 
 def lobes_of(socket: bpy.types.NodeSocket, share: Coat = WHOLE, known: bool = True, groups: Groups = ()) -> list[Lobe]:
-    """The shaders behind a socket for shaders, of which `share` is left by what is before it."""
+    """Return the shaders behind a shader socket. `share` is what the mixes before it leave."""
     source, groups = fed_by(socket, groups)
     if source is None:
         return []
@@ -68,7 +69,7 @@ def lobes_of(socket: bpy.types.NodeSocket, share: Coat = WHOLE, known: bool = Tr
 
 
 def is_bumped(material: bpy.types.Material | None) -> bool:
-    """Whether the nodes of a material bend the normals of its surface, or move that."""
+    """Return True if the nodes of a material bend the normals of its surface or displace it."""
     output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     return output is not None and (output.inputs["Displacement"].is_linked or any(
         lobe.shader.inputs[name].is_linked for lobe in lobes_of(output.inputs["Surface"])

@@ -1,4 +1,4 @@
-"""What mirrors leave of light that has met several of them, each of its triangles in the colour of its material."""
+"""Compute the light that remains after several mirrors, by the material of each triangle."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -18,9 +18,9 @@ class MirrorColours:
     Attributes
     ----------
     tints : list of Tint
-        Of all their materials.
+        Tints of all materials.
     tint_of : (k,) int64
-        Which of them each triangle of the mirrors has, one behind another.
+        Index of the tint of each triangle, of all mirrors in order.
     """
 
     tints: list
@@ -28,7 +28,7 @@ class MirrorColours:
 
     @classmethod
     def of(cls, surfaces: Iterable[MirrorSurface]) -> MirrorColours:
-        """Of mirrors, the triangles of one behind those of another."""
+        """Collect the colours of `surfaces`, whose triangles are numbered one mirror after another."""
         tints: list[Tint] = []
         tint_of = [np.zeros(0, dtype=np.int64)]
         for surface in surfaces:
@@ -37,18 +37,18 @@ class MirrorColours:
         return cls(tints, np.concatenate(tint_of))
 
     def ordered(self, triangle: np.ndarray) -> MirrorColours:
-        """Of these triangles (n,)."""
+        """Return the colours for the triangles with indices `triangle` (n,)."""
         return MirrorColours(self.tints, self.tint_of[triangle])
 
     def left(self, met: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-        """What is left of red, green and blue.
+        """Return the remaining share of red, green and blue.
 
         Parameters
         ----------
         met : (n, b) int64
-            Triangles that light meets, in its order; -1 where it meets no more.
+            Triangles that light meets, in order; -1 after the last one.
         cosine : (n, ..., b) float64
-            At which it meets them, negative at their backs.
+            Cosines of the angles of incidence, negative at back faces.
 
         Returns
         -------

@@ -35,7 +35,7 @@ class MirrorPart:
 
 
 def parts_of(surface: MirrorSurface, others: list[MirrorSurface]) -> list[MirrorPart]:
-    """The parts of a mirror among others, in the order of its materials."""
+    """Return the parts of a mirror among others, in the order of its materials."""
     colours, count = MirrorColours.of([surface, *others]), len(surface.material)
     number, tints = _distinct(colours)
     number, parts = number[colours.tint_of[:count]], []
@@ -50,7 +50,7 @@ def parts_of(surface: MirrorSurface, others: list[MirrorSurface]) -> list[Mirror
 
 
 def _distinct(colours: MirrorColours) -> tuple[np.ndarray, list[Tint]]:
-    """The tints without those that are the same, and which of these each was."""
+    """Return the index (k,) of each of the k tints among the distinct ones, and the distinct tints."""
     distinct: list[Tint] = []
     number = np.empty(len(colours.tints), dtype=np.int64)
     for index, tint in enumerate(colours.tints):

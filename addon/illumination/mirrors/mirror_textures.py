@@ -28,7 +28,7 @@ ASKING = {"TEX_COORD", "UVMAP", "ATTRIBUTE", "VERTEX_COLOR"}
 
 
 def textured(mirror: bpy.types.Object) -> list[Tint]:
-    """The tints of a mirror whose colour changes over it in a way that is known, in the order of its materials."""
+    """Return the tints of a mirror with a known texture, in the order of its materials."""
     found: list[Tint] = []
     for material in materials_of(mirror):
         tint = Tint.of_material(material)
@@ -38,12 +38,12 @@ def textured(mirror: bpy.types.Object) -> list[Tint]:
 
 
 def places_on_mirror(depsgraph: bpy.types.Depsgraph, mirror: bpy.types.Object) -> DiffuseScene | None:
-    """The mirror with its coordinates, where any of its tints is textured."""
+    """Return the mirror with its coordinates if any of its tints is textured, else None."""
     return read_scene(depsgraph, [mirror], unmirrored=True) if textured(mirror) else None
 
 
 def stains(tints: list[Tint], whole: AllOrNothing) -> list[tuple[Tint, bpy.types.NodeTree]]:
-    """Textured tints, each with a group that tells its colour where light comes from."""
+    """Return textured tints, each with a node group that computes its colour at the point of reflection."""
     return [(tint, _colour_group(tint.texture, whole)) for tint in tints if tint.texture is not None]
 
 
@@ -63,12 +63,12 @@ def _colour_group(texture: Texture, whole: AllOrNothing) -> bpy.types.NodeTree:
 
 def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tints: list[Tint],
                       mirror: DiffuseScene | None) -> tuple[Attribute, ...]:
-    """What nodes of textured tints ask for at the corners of faces of light.
+    """Return the attributes that nodes of textured tints read at the corners of the faces of caustics.
 
     Parameters
     ----------
     lit : list of (MirrorPart, (m, 3, 3) float64, CausticMesh)
-        With the light that a perfect mirror would throw by the first mirror, in W/m2.
+        With the light in W/m2 that a perfect first mirror would reflect.
     """
     if mirror is None or not tints:
         return ()
@@ -83,7 +83,7 @@ def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tin
     for name in sorted({name for tint in tints for name in _asked(tint.texture)}):
         values = np.matmul(weights, _values(mirror, name)[triangle])
         if name == NORMAL:
-            # of a back it is that of the side that is met, and as long as between corners it is not
+            # flip normals on back faces, and normalise them, since interpolation shortens them
             values *= sides / np.maximum(np.linalg.norm(values, axis=2, keepdims=True), 1e-12)
         # numbers alone stand for themselves three times, colours without how opaque they are
         values = np.repeat(values, 3, axis=2) if values.shape[2] == 1 else values[:, :, :3]
@@ -93,7 +93,7 @@ def mirror_attributes(lit: list[tuple[MirrorPart, np.ndarray, CausticMesh]], tin
 
 
 def _values(mirror: DiffuseScene, name: str):
-    """Coordinates, or what is stored, at the corners of a mirror's triangles."""
+    """Return coordinates, or a stored attribute, at the corners of a mirror's triangles."""
     if name in (*PLACES, NORMAL):
         return {"Generated": mirror.generated, "Object": mirror.own_places, NORMAL: mirror.own_normals}[name]
     nothing = np.zeros((len(mirror.mesh.triangles), 3, 3), dtype=np.float32)
@@ -104,7 +104,7 @@ def _values(mirror: DiffuseScene, name: str):
 
 
 def _weights(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (m, 3, 3) of places (m, 3, 3) in triangles with `corners` (m, 3, 3)."""
+    """Return barycentric coordinates (m, 3, 3) of points `places` (m, 3, 3) in triangles with `corners` (m, 3, 3)."""
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal, away = np.cross(first, second), places - corners[:, :1]
     squared = np.maximum((normal**2).sum(axis=1), 1e-300)[:, None]
@@ -122,7 +122,7 @@ def _attribute(name: str) -> str:
 
 
 def _by_place(texture: Texture) -> bool:
-    """Whether a texture tells its colour by a place on the mirror alone."""
+    """Return True if a texture's colour depends on the position on the mirror only."""
     colour = texture.plugged_in
     return colour is not None and all(
         node.type in BY_PLACE and not (node.type in ASKING and _elsewhere(node))
@@ -130,7 +130,7 @@ def _by_place(texture: Texture) -> bool:
 
 
 def _elsewhere(node: bpy.types.Node) -> bool:
-    """Whether a node tells of something else than the mirror, of what depends on the eye, or how opaque a colour is."""
+    """Return True if a node reads data of other objects, data that depends on the view, or the alpha of a colour."""
     if node.type in {"ATTRIBUTE", "VERTEX_COLOR"}:
         return getattr(node, "attribute_type", "GEOMETRY") != "GEOMETRY" or node.outputs["Alpha"].is_linked
     known = {"Generated", "UV", NORMAL} | ({"Object"} if getattr(node, "object", None) is None else set())
@@ -144,6 +144,6 @@ def _asked(texture: Texture) -> set[str]:
 
 
 def _nodes(node: bpy.types.Node) -> list[bpy.types.Node]:
-    """A node, those that feed it, and those of the groups among them."""
+    """Return a node, the nodes that feed it, and those in groups among them."""
     found = [node, *feeding(node)]
     return found + [inner for one in found if one.type == "GROUP" for inner in all_nodes(one.node_tree)]

@@ -1,4 +1,4 @@
-"""What a mirror's material makes of light: its colour, and by which angle it becomes white."""
+"""Compute the reflectance of a mirror's material: its colour, and its rise to white at grazing angles."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ F82 = 1.0 / 7.0  # cosine of the angle at which the edge tint is given
 
 @dataclass(frozen=True)
 class Texture:
-    """What is plugged into a socket of a material's node, by their names: nodes may be gone at another moment."""
+    """The link into a socket of a material's node, stored by names, since nodes may be removed at any time."""
 
     material: bpy.types.Material
     node: str
@@ -24,7 +24,7 @@ class Texture:
 
     @property
     def plugged_in(self) -> bpy.types.NodeSocket | None:
-        """It; None where nothing is any more."""
+        """The linked output socket; None if nothing is linked any more."""
         node = self.material.node_tree.nodes.get(self.node)
         socket = None if node is None else next((one for one in node.inputs if one.identifier == self.socket), None)
         return socket.links[0].from_socket if socket is not None and socket.is_linked else None
@@ -37,19 +37,19 @@ class Tint:
     Attributes
     ----------
     colour, edge : (3,) float64
-        Straight on, and at 82 degrees as a part of what Schlick's formula says there.
+        Reflectance at normal incidence, and at 82 degrees relative to Schlick's formula.
     fresnel : bool
-        Whether the angle matters.
+        True if the reflectance depends on the angle.
     constant : bool
-        Whether the material is one colour all over, as far as its nodes tell.
+        True if the material has one colour all over, as far as its nodes are known.
     coat : Coat
-        How much of the light the mirror sends back where it is mixed with something else.
+        Share of the mirror in a mix with other shaders.
     conductor : tuple of two (3,) float64, optional
-        The refractive index and the extinction coefficient of a metal that is told by these instead.
+        Refractive index and extinction coefficient of a metal that is defined by these.
     texture : Texture, optional
-        Where the colour alone changes over the material, what tells it.
+        Source of the colour, if only the colour varies.
     more : tuple of Tint
-        What else the material is mixed or coated of that mirrors: all of it adds up.
+        Further reflecting shaders of the material, which add up.
     """
 
     colour: np.ndarray
@@ -63,13 +63,13 @@ class Tint:
 
     @classmethod
     def of(cls, mirror: bpy.types.Object) -> Tint:
-        """Of the mirror's first reflecting material; white where it has none."""
+        """Return the tint of the mirror's first reflecting material; white if it has none."""
         materials = [slot.material for slot in mirror.material_slots if slot.material is not None]
         return cls.of_material(next((one for one in materials if is_mirror(one) or has_mirrors(one)), None))
 
     @classmethod
     def of_material(cls, material: bpy.types.Material | None) -> Tint:
-        """Of a mirror's material; white where it mirrors nothing, as far as its nodes tell."""
+        """Return the tint of a mirror's material; white if it reflects nothing as far as its nodes are known."""
         white = np.ones(3)
         if material is not None and not compat.uses_nodes(material) and is_mirror(material):
             return cls(np.array(material.diffuse_color[:3], dtype=np.float64), white, True, True)
@@ -77,14 +77,14 @@ class Tint:
         found = _tints_of(material) or _tints_of(material, rough=True)
         if len(found) < 2:
             return found[0] if found else cls(white, white, False, True)
-        # of several the texture of one is known, if all others are one colour
+        # the texture of one shader is supported if all others have one colour
         first = next((one for one in found if not one.constant), found[0])
         more = tuple(one for one in found if one is not first)
         plain = all(one.constant for one in more)
         return replace(first, constant=first.constant and plain, more=more, texture=first.texture if plain else None)
 
     def same(self, other: Tint) -> bool:
-        """Whether both make the same of light."""
+        """Return True if both have the same reflectance."""
         return (np.array_equal(self.colour, other.colour) and np.array_equal(self.edge, other.edge)
                 and np.array_equal(np.ravel(self.conductor), np.ravel(other.conductor))
                 and (self.fresnel, self.constant, self.coat, self.texture)
@@ -92,11 +92,10 @@ class Tint:
                 and len(self.more) == len(other.more) and all(map(Tint.same, self.more, other.more)))
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
-        """What is left of red, green and blue, (..., 3), where light meets the mirror at `cosine` (...), negative at
-        its back.
+        """Return the reflectance (..., 3) at the cosines `cosine` (...), negative at back faces.
 
-        N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019; of conductors M. Pharr, G. Humphreys,
-        "Physically Based Rendering", 2nd edition, section 8.2.1.
+        N. Hoffman, "Fresnel Equations Considered Harmful", MAM 2019; of conductors M. Pharr, G. Humphreys, "Physically
+        Based Rendering", 2nd edition, section 8.2.1.
         """
         left = np.broadcast_to(self.colour, (*cosine.shape, 3))
         if self.conductor is not None:
@@ -112,13 +111,13 @@ class Tint:
         return sum((one.at(cosine) for one in self.more), own)
 
     def by_colour(self, cosine: np.ndarray) -> np.ndarray:
-        """By how much what is left, (..., 3), grows with the colour, of which it is linear."""
+        """Return the derivative (..., 3) of the reflectance by the colour, in which it is linear."""
         white, black = (replace(self, colour=np.full(3, value), more=()).at(cosine) for value in (1.0, 0.0))
         return white - black
 
 
 def has_mirrors(material: bpy.types.Material | None) -> bool:
-    """Whether any shader of a material's nodes mirrors sharply."""
+    """Return True if any shader of a material reflects sharply."""
     return bool(_tints_of(material))
 
 
@@ -130,7 +129,7 @@ def _tints_of(material: bpy.types.Material | None, rough: bool = False) -> list[
 
 
 def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe, rough: bool) -> list[Tint]:
-    """That of what a shader is, and that of its coat."""
+    """Return the tints of a shader and of its coat."""
     shader, white = lobe.shader, np.ones(3)
     layers = layers_of(shader) if shader.type == "BSDF_PRINCIPLED" and lobe.is_sharp else None
     below, over, known = layers or (WHOLE, None, True)
@@ -147,7 +146,7 @@ def _tints_of_lobe(material: bpy.types.Material, lobe: Lobe, rough: bool) -> lis
 
 
 def _of_metal(material: bpy.types.Material, lobe: Lobe, coat: Coat, known: bool) -> Tint:
-    """That of a Glossy, a Metallic or a metallic Principled BSDF."""
+    """Return the tint of a Glossy, a Metallic or a metallic Principled BSDF."""
     shader, white = lobe.shader, np.ones(3)
     if getattr(shader, "fresnel_type", "F82") == "PHYSICAL_CONDUCTOR":
         (index, plain), (extinction, plain_too) = lobe.told("IOR"), lobe.told("Extinction")

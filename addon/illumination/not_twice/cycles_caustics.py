@@ -1,4 +1,4 @@
-"""What Cycles does with light that mirrors throw: its own caustics left out."""
+"""Switch off Cycles' own caustics where a mesh shows them."""
 from __future__ import annotations
 
 import bpy
@@ -10,8 +10,9 @@ from .own_caustics import leave_out_own_caustics, makes_own_caustics
 
 def leave_out(scene: bpy.types.Scene, mirror: bpy.types.Object, lamp: bpy.types.Object, materials: list,
               whole: AllOrNothing) -> list:
-    """Leave out Cycles' own caustics of a lamp and a mirror, which shows `materials`, if it makes any; a sentence where
-    that cannot be."""
+    """Switch off Cycles' own caustics of a lamp and a mirror with `materials`, if it makes any. Return a list with a
+    sentence if that is impossible.
+    """
     own, alone = makes_own_caustics(materials)
     if scene.render.engine != "CYCLES" or not scene.cycles.caustics_reflective or not (own and is_met(lamp)):
         return []

@@ -20,17 +20,17 @@ from .shining_shell import follow_materials, forget_materials, has_shell, shell_
 RAYS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
         "visible_shadow")
 VALUES = {"BOOLEAN", "INT", "FLOAT", "ENUM"}
-FACTORS = ("diffuse_factor", "specular_factor", "transmission_factor", "volume_factor")  # that EEVEE knows alone
+FACTORS = ("diffuse_factor", "specular_factor", "transmission_factor", "volume_factor")  # factors that only EEVEE uses
 
 
 def glint_of(lamp: bpy.types.Object) -> bpy.types.Object | None:
-    """The second lamp of a lamp, if it has one that can be changed."""
+    """Return the second lamp of a lamp, if it has an editable one."""
     return next((obj for obj in lamp.children if is_glint(obj) and obj.library is None), None)
 
 
 def show_in_mirror(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
                    whole: AllOrNothing) -> None:
-    """Let a mirror that a lamp does not light show it all the same."""
+    """Show a lamp in a mirror that it does not light."""
     glint = _of_light(scene, lamp, whole) if lamp.type == "LIGHT" else _of_mesh(scene, lamp, whole)
     if glint is None:
         return
@@ -85,7 +85,7 @@ def _of_mesh(scene: bpy.types.Scene, lamp: bpy.types.Object, whole: AllOrNothing
 
 
 def follow_lamp(lamp: bpy.types.Object) -> None:
-    """Let the image of a lamp, if there is one, be as bright and as large as the lamp is now."""
+    """Copy the brightness and the size of a lamp to its image, if there is one."""
     glint = glint_of(lamp)
     if glint is None:
         return
@@ -101,7 +101,7 @@ def follow_lamp(lamp: bpy.types.Object) -> None:
 
 
 def hide_from_mirror(lamp: bpy.types.Object, mirror: bpy.types.Object | None) -> None:
-    """Let a mirror not show the image of a lamp any more; without any mirror there is none."""
+    """Hide the image of a lamp from a mirror; remove the image if no mirror is left."""
     glint = glint_of(lamp)
     if glint is None:
         return
@@ -113,8 +113,9 @@ def hide_from_mirror(lamp: bpy.types.Object, mirror: bpy.types.Object | None) ->
 
 
 def forget_lost_glints(leaves_out: Callable[[bpy.types.Object], bool]) -> bool:
-    """Remove what is left of lamps that are gone, or of which `leaves_out` tells that they light all mirrors again,
-    as copies of lamps may; whether there was any."""
+    """Remove images whose lamp is deleted, or lights all mirrors again (`leaves_out` is False), as copies of lamps may.
+    Return True if there were any.
+    """
     lost = [obj for obj in bpy.data.objects if is_glint(obj) and obj.library is None
             and (obj.parent is None or not leaves_out(obj.parent))]
     for glint in lost:
@@ -123,7 +124,7 @@ def forget_lost_glints(leaves_out: Callable[[bpy.types.Object], bool]) -> bool:
 
 
 def _link(scene: bpy.types.Scene, lamp: bpy.types.Object, glint: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Give the image of a lamp its place in the file, and no mirror yet that it lights."""
+    """Link the image of a lamp into the file, without any mirror that it lights yet."""
     glint[GLINT] = True
     lit = bpy.data.collections.new(_name(lamp))
     whole.undo(bpy.data.collections.remove, lit)
@@ -148,7 +149,7 @@ def _name_again(lamp: bpy.types.Object) -> None:
 
 
 def _replace(old: bpy.types.Light, glint: bpy.types.Object) -> None:
-    # of several mirrors each replaces what the one before has made: the last is what stays
+    # each mirror replaces the result of the one before, so the last one stays
     name = old.name
     if old.users == 0:
         bpy.data.lights.remove(old)
@@ -166,7 +167,7 @@ def _darken_behind_diffuse(data: bpy.types.Light) -> None:
 
 
 def _plain_nodes(data: bpy.types.Light) -> bpy.types.NodeTree:
-    """Nodes of a lamp that used none, whatever it kept."""
+    """Return default nodes for a lamp that used none, whatever nodes it had stored."""
     tree = compat.use_nodes(data)
     tree.nodes.clear()
     output, shader = tree.nodes.new("ShaderNodeOutputLight"), tree.nodes.new("ShaderNodeEmission")

@@ -19,8 +19,9 @@ from .glint import forget_lost_glints, glint_of, hide_from_mirror, show_in_mirro
 
 
 def makes_own_caustics(materials: list) -> tuple[bool, bool]:
-    """Whether Cycles finds lamps in a mirror, as far as its materials tell, and whether that is all that these do: what
-    is lit as well, as water over its ground, cannot be taken out of what a lamp lights."""
+    """Return True if Cycles finds lamps in a mirror with these materials, and True if the materials only reflect. A
+    surface that is lit as well, such as water over its ground, cannot be excluded from a lamp's light.
+    """
     whole = [is_mirror(material) for material in materials]
     sharp = (node for material in materials if compat.uses_nodes(material) for node in all_nodes(material.node_tree)
              if node.type in {*MIRRORS, "BSDF_PRINCIPLED", "BSDF_GLASS"})
@@ -30,15 +31,16 @@ def makes_own_caustics(materials: list) -> tuple[bool, bool]:
 
 
 def _mirrors_alone(material: bpy.types.Material | None) -> bool:
-    """Whether a material is mixed, added or grouped of nothing but shaders that no light goes into."""
+    """Return True if a material consists only of shaders that light does not enter."""
     shaders = surface_shaders(material.node_tree) if material is not None and compat.uses_nodes(material) else []
     return bool(shaders) and all(shader.type in MIRRORS for shader in shaders)
 
 
 def leave_out_own_caustics(scene: bpy.types.Scene, lamp: bpy.types.Object, mirror: bpy.types.Object,
                            whole: AllOrNothing) -> bool:
-    """Let a lamp not light a mirror, which goes on to show it, unless the user has taken it out already; False where
-    the user has linked the lamp otherwise, or the lamp is not the file's own, and nothing has changed."""
+    """Exclude a mirror from a lamp's light, unless the user has done so already. The mirror still shows the lamp.
+    Return False, without changes, if the user has linked the lamp otherwise or the lamp belongs to another file.
+    """
     linking = lamp.light_linking
     collection = linking.receiver_collection
     if collection is not None and not collection.get(_MARK) and not _lit_by(collection, mirror):
@@ -73,9 +75,10 @@ def bring_back_own_caustics(lamp: bpy.types.Object | None, mirror: bpy.types.Obj
 
 
 def bring_back_abandoned() -> bool:
-    """As `bring_back_own_caustics`, for each lamp and mirror whose light no mesh shows any more, whatever removed it;
-    whether there were any."""
-    # what is deleted may live on where something still points to it, but in no scene
+    """Restore all lamps and mirrors whose caustics are no longer shown by a mesh, whatever removed it, see
+    `bring_back_own_caustics`. Return True if there were any.
+    """
+    # deleted objects that are still referenced exist without a scene
     made = {(obj.reflection_mesh.lamp, obj.reflection_mesh.mirror) for scene in bpy.data.scenes
             for obj in scene.objects if obj.reflection_mesh.role == "CAUSTICS"}
     lamps: dict = {}
@@ -95,12 +98,13 @@ def bring_back_abandoned() -> bool:
 
 
 def leaves_out_any() -> bool:
-    """Whether some mirror of the file is left out, as far as collections tell: a look, and no search for lamps."""
+    """Return True if a mirror of the file is excluded, judging by collections only: cheap, without a search for lamps.
+    """
     return any(_MARK in collection and collection.library is None for collection in bpy.data.collections)
 
 
 def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
-    """Whether a lamp does not light a mirror because its caustics are a mesh."""
+    """Return True if a lamp does not light a mirror because a mesh shows its caustics."""
     collection = lamp.light_linking.receiver_collection
     return collection is not None and _is_ours(collection, lamp) and mirror.name in collection.objects
 
@@ -112,7 +116,7 @@ def is_shown_in(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
 
 
 def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
-    """Let lamps light the mirrors that they leave out, by themselves, until the stack takes it back."""
+    """Let lamps light the mirrors from which they are excluded, until the stack is closed."""
     for lamp in dict.fromkeys(lamps):
         if _leaves_out_some(lamp):
             back.callback(setattr, lamp.light_linking, "receiver_collection", lamp.light_linking.receiver_collection)
@@ -129,8 +133,9 @@ def _leaves_out_some(lamp: bpy.types.Object) -> bool:
 
 
 def _lit_by(collection: bpy.types.Collection, obj: bpy.types.Object) -> bool:
-    """Whether a lamp that is linked to a collection lights an object: not what is excluded, and where something is
-    included nothing else."""
+    """Return True if a lamp linked to a collection lights an object. Excluded objects are not lit; if anything is
+    included, nothing else is lit.
+    """
     told = link_state(collection, obj)
     if told is not None:
         return told == "INCLUDE"

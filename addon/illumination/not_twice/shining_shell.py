@@ -14,20 +14,22 @@ from ...faults import AllOrNothing
 from ...reading.materials import all_nodes, one_output, surface_shader
 from ..light_sources import EMISSION, GLINT
 
-THICKNESS = 2e-4  # of the mesh's size
+THICKNESS = 2e-4  # relative to the mesh's size
 SHINE = "Reflection Mesh Shine"
 BRING_MATERIALS = {"SET_MATERIAL", "REPLACE_MATERIAL", "SET_MATERIAL_INDEX", "OBJECT_INFO", "COLLECTION_INFO"}
 UNSEEN_BY = ("visible_camera", "visible_diffuse", "visible_transmission", "visible_volume_scatter", "visible_shadow")
 
 
 def has_shell(lamp: bpy.types.Object) -> bool:
-    """Whether a mesh can have a shell: where nodes bring materials of their own, not its slots say how it shines."""
+    """Return True if a mesh can have a shell. It cannot if nodes assign materials, since its slots do not show its
+    emission then.
+    """
     groups = [modifier.node_group for modifier in lamp.modifiers if modifier.type == "NODES"]
     return not any(node.type in BRING_MATERIALS for group in groups for node in all_nodes(group))
 
 
 def shell_of(lamp: bpy.types.Object, name: str, whole: AllOrNothing) -> bpy.types.Object:
-    """The shell of a mesh, its child, in no collection yet."""
+    """Return the shell of a mesh, its child, which is not linked to a collection yet."""
     materials = []
     for slot in lamp.material_slots:
         materials.append(_shining(slot.material, name))
@@ -57,7 +59,7 @@ def shell_of(lamp: bpy.types.Object, name: str, whole: AllOrNothing) -> bpy.type
 
 
 def follow_materials(lamp: bpy.types.Object, shell: bpy.types.Object) -> None:
-    """Let a shell shine as bright as its mesh does now, where no nodes say how bright."""
+    """Copy the present brightness of a mesh to its shell if no nodes determine it."""
     for slot, own in zip(lamp.material_slots, shell.material_slots):
         known, shine = _emission(slot.material), own.material and own.material.node_tree.nodes.get(SHINE)
         for now, socket in zip(known, _inputs(shine)) if shine else ():
@@ -66,14 +68,14 @@ def follow_materials(lamp: bpy.types.Object, shell: bpy.types.Object) -> None:
 
 
 def forget_materials(materials: list) -> None:
-    """Remove those of shells that nothing uses any more."""
+    """Remove materials of shells that have no users any more."""
     for material in dict.fromkeys(materials):
         if material is not None and GLINT in material and material.users == 0:
             bpy.data.materials.remove(material)
 
 
 def _shining(material: bpy.types.Material | None, name: str) -> bpy.types.Material:
-    """A copy of a material that lets all light through, and adds what it emits where its mirrors see it."""
+    """Return a copy of a material that transmits all light and adds the emission, as seen by its mirrors."""
     made = material.copy() if _emission(material) else bpy.data.materials.new(name)
     made.name, made[GLINT] = name, True
     made.cycles.emission_sampling = "NONE"
@@ -103,8 +105,9 @@ def _shining(material: bpy.types.Material | None, name: str) -> bpy.types.Materi
 
 
 def _dark(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
-    """1 or more where a shell shines not: on the side of its mesh, behind diffuse surfaces, and for cameras, which
-    engines show it to that know of no visibility to rays."""
+    """Return a socket that is 1 or more where a shell does not shine: on the side of its mesh, behind diffuse surfaces,
+    and for cameras in engines without ray visibility.
+    """
     path, side = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeNewGeometry")
     dark = path.outputs["Diffuse Depth"]
     for more in (path.outputs["Is Camera Ray"], side.outputs["Backfacing"]):
@@ -117,7 +120,7 @@ def _dark(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
 
 
 def _emission(material: bpy.types.Material | None) -> list[bpy.types.NodeSocket]:
-    """The sockets of a material that tell the colour and the strength of what it emits; none where none does."""
+    """Return the sockets with the colour and the strength of a material's emission; empty if it emits nothing."""
     shader = surface_shader(material.node_tree) if material is not None and compat.uses_nodes(material) else None
     return _inputs(shader) if shader is not None and shader.type in EMISSION else []
 
@@ -127,7 +130,7 @@ def _inputs(shader: bpy.types.Node) -> list[bpy.types.NodeSocket]:
 
 
 def _take(socket: bpy.types.NodeSocket, other: bpy.types.NodeSocket) -> None:
-    """Give a socket another's value, if it has not got it."""
+    """Copy a socket's value to another socket if it differs."""
     value = np.array(other.default_value)
     if not np.array_equal(np.array(socket.default_value), value):
         socket.default_value = other.default_value

@@ -83,7 +83,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, S
             elsewhere = yield from part(side_by_side(words, frames, self.jobs, heard.append), 0.0, start := 0.9)
 
         def planned(layer: str) -> Plan:
-            # what others have just made is not made again
+            # skip frames that the other processes have just baked
             return plan_of(context, folder, self.frames, wanted, cameras=cameras, layer=layer, eyes=self.eyes,
                            overwrite=self.overwrite and self.jobs == 1, leave_out=self._leave_out,
                            lamps=tuple(meant_lamps(context)) if self.what == "CAUSTICS" else ())
@@ -104,7 +104,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, S
                                  time.perf_counter() - started)], remarks)
 
     def _taken(self, context: bpy.types.Context) -> tuple[list, tuple]:
-        """The view layers and the cameras that have sequences of their own, none of these for the scene's."""
+        """Return the view layers and the cameras that get sequences of their own; empty for the scene's own."""
         layers = [layer for layer in context.scene.view_layers if layer.use] if self.layers == "RENDERED" else []
         if self.cameras == "SCENE":
             return layers or [context.view_layer], ()
@@ -114,7 +114,7 @@ class REFLECTION_MESH_OT_bake(UsesSettings, ProtectsResults, BrowsingOperator, S
         return layers or [context.view_layer], cameras
 
     def _words(self, context: bpy.types.Context, folder: str, given: dict, taken: tuple[list, tuple]) -> list[str]:
-        """What the other processes are told."""
+        """Return the command line arguments for the other processes."""
         words = ["bake", "--what", self.what, "--output", folder, *words_of(given), "--scene", context.scene.name]
         for flag, items in zip(("--view-layer", "--camera"), taken, strict=True):
             words += [flag, *(item.name for item in items)] if items else []

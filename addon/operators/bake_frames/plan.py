@@ -1,4 +1,4 @@
-"""What is to be baked, which of its frames are there already, and whether these show the scene as it is."""
+"""The plan of a bake, the frames that exist already, and a check if these show the scene as it is now."""
 from __future__ import annotations
 
 import re
@@ -26,33 +26,33 @@ from ..shortcomings import DEPTH_OF_FIELD, STEREO, render_shortcomings
 
 NUMBER = re.compile(r"[\d.,]+")
 NAMED = 8   # so many frames are named one by one
-LACKING = "In frame"  # how sentences begin on what mirrors lack
+LACKING = "In frame"  # first words of sentences on what frames lack
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be baked.
+    """The plan of a bake.
 
     Attributes
     ----------
     folder : str
         Absolute path.
     frames : list of int
-    settings : core.Settings, or a function that gives those of a mirror
+    settings : core.Settings, or a function from a mirror to its settings
     samples : int
-        Of light per pixel; 0 for none.
+        Samples of light per pixel; 0 for no light.
     cameras : list of bpy.types.Object
-        One sequence for each; empty: one by the scene's own camera, which its markers may change.
+        One sequence for each. If empty, one for the scene's camera, which markers may change.
     layer : str
-        What tells the sequences from those of other view layers; empty where there are none.
+        Name that distinguishes the sequences of a view layer; empty if there is only one.
     overwrite : bool
-        Make again what is there; else it is kept, where it was made with the same settings.
+        Make existing frames again. Otherwise keep those that were made with the same settings.
     lamps : list of bpy.types.Object
-        Whose light is baked that mirrors throw, instead of reflections; empty for these.
+        Lamps whose caustics are baked; empty to bake reflections.
     eyes : int
-        Places on each lamp; 0: as many as its light was made with last.
+        Number of points on each lamp; 0 for as many as its caustics were last made with.
     leave_out : bool or None
-        Cycles' own caustics of these lamps; None: those that were left out when their light was made last.
+        Leave out Cycles' own caustics of these lamps; None keeps the choice of the last time.
     """
 
     folder: str
@@ -68,14 +68,16 @@ class Plan:
 
     @property
     def takes(self) -> list:
-        """(name, camera or None) of each sequence."""
+        """The (name, camera or None) of each sequence."""
         apart = told_apart([camera.name for camera in self.cameras])
         names = [apart[camera.name] if len(self.cameras) > 1 else "" for camera in self.cameras]
         return [(f"{self.layer} {name}".strip(), camera)
                 for name, camera in zip(names or [""], self.cameras or [None], strict=True)]
 
     def made_with(self, context: bpy.types.Context, camera: bpy.types.Object | None, mirrors: list) -> dict:
-        """What a frame depends on, besides what is in the file; by name, the settings of mirrors with their own."""
+        """Return the settings that a frame depends on, besides the contents of the file. Mirrors with settings of their
+        own have an entry by name.
+        """
         settings = _plain(of_each(self.settings)(None))
         each = {mirror.name: _plain(of_each(self.settings)(mirror)) for mirror in mirrors}
         own = {name: values for name, values in each.items() if values != settings}
@@ -90,8 +92,9 @@ def _plain(settings: core.Settings) -> dict:
 
 
 def found_frames(context: bpy.types.Context, plan: Plan, take: tuple, baked) -> dict:
-    """The frames of a sequence that are there already, and None for those that are to be made; `baked` tells of what
-    kind they are."""
+    """Return the frames of a sequence by number: the record of a frame that exists already, None for one that must be
+    made. `baked` is the kind of result.
+    """
     name, camera = take
     known: dict = dict.fromkeys(plan.frames)
     if plan.overwrite:
@@ -117,7 +120,7 @@ def open_frame(context: bpy.types.Context, frame: int, camera: bpy.types.Object 
 
 def compared(context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | None, everything: tuple,
               known: dict, remark: Callable[[str], None]) -> Steps[None]:
-    """Look whether the frames that are there already show the scene as it is now, and say so where they do not."""
+    """Compare existing frames with the scene as it is now. Pass a sentence to `remark` if they differ."""
     changed, reason = [], ""
     for frame, record in known.items():
         if record is not None and record.made_from:
@@ -133,7 +136,7 @@ def compared(context: bpy.types.Context, plan: Plan, camera: bpy.types.Object | 
 
 
 def frames_listed(frames: list[int]) -> str:
-    """Some frames in words, the first of them where they are many."""
+    """Return frame numbers in words; only the first ones if there are many."""
     if len(frames) == 1:
         return f"frame {frames[0]}"
     named = ", ".join(map(str, frames[:NAMED]))
@@ -141,8 +144,9 @@ def frames_listed(frames: list[int]) -> str:
 
 
 def lacking(lacks: dict) -> list[str]:
-    """What mirrors lack, sentences by frames, each once with its frames, which `LACKING` begins; those that differ in
-    numbers alone as one."""
+    """Return the sentences in `lacks`, a dict by frame. Each is listed once, with all its frames, and begins with
+    `LACKING`. Sentences that differ only in numbers count as one.
+    """
     frames: dict = {}
     for frame, sentences in lacks.items():
         for sentence in gathered(sentences):
@@ -152,7 +156,7 @@ def lacking(lacks: dict) -> list[str]:
 
 
 def joined_or_none(context: bpy.types.Context, mirrors: list[Assembly], diffuse: list) -> Participants | None:
-    """Who takes part in the open frame; None where all mirrors or all else are hidden."""
+    """Return the participants of the open frame; None if all mirrors or all other objects are hidden."""
     try:
         seen = visible(context, [part for one in mirrors for part in one.parts], diffuse)
         return replace(seen, assemblies=tuple(mirrors))
@@ -161,25 +165,27 @@ def joined_or_none(context: bpy.types.Context, mirrors: list[Assembly], diffuse:
 
 
 def plan_of(context: bpy.types.Context, folder: str, frames: str, wanted: Wanted, **more) -> Plan:
-    """A plan for the frames that a text names, or the scene's range, by the settings of the mirrors that take part."""
+    """Return a plan for the frames in the text `frames`, or for the scene's range if it is empty."""
     numbers = chosen_frames(context.scene, frames)
     return Plan(folder, numbers, wanted, wanted.samples(candidates(context)[0]), **more)
 
 
 def chosen_frames(scene: bpy.types.Scene, text: str) -> list[int]:
-    """The frames that a text names, or the scene's range."""
+    """Return the frames in a text, or the scene's range if it is empty."""
     return frame_numbers(text or frame_text(scene.frame_start, scene.frame_end, scene.frame_step))
 
 
 def scene_remarks(context: bpy.types.Context, cameras: tuple, thrown: bool = False) -> list[str]:
-    """Sentences on what renders of the scene show otherwise than what was baked, and on mirrors that were left out."""
+    """Return sentences on how renders of the scene differ from the baked frames, and on mirrors that were left out."""
     caught = [] if thrown else shadow_catchers(context)
     return [*map(why_caught, caught), *render_shortcomings(context, *candidates(context)),
             *_blur_remarks(context.scene, cameras, thrown)]
 
 
 def _blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) -> list[str]:
-    """What baked reflections, or light that mirrors have `thrown`, cannot do of what the scene asks for."""
+    """Return sentences on effects of the scene, such as motion blur, that baked reflections (or caustics, if `thrown`)
+    lack.
+    """
     told = []
     if scene.render.use_motion_blur:
         told.append("Motion blur: reflections are sharp, since their faces change from frame to frame; blur them after "
@@ -192,8 +198,7 @@ def _blur_remarks(scene: bpy.types.Scene, cameras: tuple, thrown: bool = False) 
 
 
 def empty_remarks(sequences: list[Sequence]) -> list[str]:
-    """A sentence on the mirrors that show nothing, or throw nothing of a lamp's light, in any frame of any sequence; of
-    single frames nobody is told."""
+    """Return a sentence on mirrors that show nothing, or cast no caustics of a lamp, in any frame of any sequence."""
     seen = {key for sequence in sequences for key in sequence.records[0].results if key not in sequence.empty}
     empty = sorted(set().union(*(sequence.empty for sequence in sequences)) - seen)
     if not empty:
@@ -202,7 +207,7 @@ def empty_remarks(sequences: list[Sequence]) -> list[str]:
 
 
 def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
-    """What renders of the scene show besides the view layers that were baked, in a sentence."""
+    """Return a sentence on view layers that are rendered but were not baked, in a list that may be empty."""
     names = {layer.name for layer in layers}
     others = [layer.name for layer in scene.view_layers if layer.use and layer.name not in names]
     if len(names) > 1 or not others:
@@ -212,7 +217,7 @@ def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
 
 
 def summary(plans: list[Plan], made: int, seconds: float) -> str:
-    """One line on what was baked."""
+    """Return one line on what was baked."""
     return one_or_more(sum(len(plan.frames) * len(plan.takes) for plan in plans),
                        "{made} of 1 frame baked into '{folder}', {seconds} s",
                        "{made} of {count} frames baked into '{folder}', {seconds} s",

@@ -14,7 +14,9 @@ from .thrown_light import playing_light
 
 
 def playing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
-    """Let the results of the file play sequences, all or none of them; the objects, and sentences on what is hidden."""
+    """Make the results of the file play sequences, all or none of them. Return the objects, and sentences on hidden
+    ones.
+    """
     mirrors, diffuse = candidates(context)
     joint = assembled(context, Participants(mirrors, diffuse, []), plan.settings)
     with AllOrNothing() as whole:
@@ -35,5 +37,5 @@ def playing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -
 
 
 def showing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
-    """Let the file play what was baked by a plan: the objects, and sentences on what is left out."""
+    """Make the file play the sequences of a plan. Return the objects, and sentences on what is left out."""
     return playing_light(context, plan, sequences[0]) if plan.lamps else playing(context, plan, sequences)

@@ -24,16 +24,15 @@ from .plan import LACKING
 
 STAGE = re.compile(r"\s*(\d+) %  ([^:]*)")
 SUMMARY = re.compile(r"(\d+) of \d+ frame")
-PASSED_ON = ("Saved: '", LACKING)  # how lines begin that are for whoever lets them bake
+PASSED_ON = ("Saved: '", LACKING)  # first words of lines that are passed on to the user
 PATIENCE = 5.0      # seconds that a process has for ending by itself
 LISTENING = 0.05    # seconds between two looks at whether Ctrl-C or ESC was pressed
 
 
 def side_by_side(words: list[str], frames: list[int], jobs: int,
                  heard: Callable[[str], None] = lambda line: None) -> Steps[int]:
-    """Bake frames in so many processes, by the `words` of the verb `bake`; yields (fraction, stage), returns how many
-    frames were made. `heard` is given the lines on files that
-    are done, and on what mirrors lack.
+    """Bake frames in `jobs` processes with the arguments `words` of the command `bake`, yielding (fraction, stage).
+    Return the number of frames made. `heard` is called with lines on finished files and on what frames lack.
 
     Raises
     ------
@@ -42,7 +41,7 @@ def side_by_side(words: list[str], frames: list[int], jobs: int,
     """
     shares = [frames[start::jobs] for start in range(min(jobs, len(frames)))]
     with scratch_folder() as folder:
-        # what is open, which may not have been saved
+        # save the open scene, whose changes may not have been saved
         path = os.path.join(folder, os.path.basename(bpy.data.filepath) or "scene.blend")
         save_blend(path)
         with _running([_command(path, words, share) for share in shares]) as processes:
@@ -51,7 +50,7 @@ def side_by_side(words: list[str], frames: list[int], jobs: int,
 
 
 def words_of(settings: dict) -> list[str]:
-    """Settings that were given, as the command line has them."""
+    """Return settings as arguments of the command line."""
     words: list[str] = []
     for name, value in settings.items():
         flag = "light" if name == "light_samples" else name.replace("_", "-")
@@ -60,11 +59,12 @@ def words_of(settings: dict) -> list[str]:
 
 
 def _command(path: str, words: list[str], frames: list[int]) -> list[str]:
-    """How a process is started that makes these frames and no file that plays them; of options that are given twice
-    the second counts."""
+    """Return the command that starts a process which bakes these frames without a file that plays them. Of repeated
+    options, the last one counts.
+    """
     start = [sys.executable, str(Path(__file__).parents[2] / "run_with_bpy.py"), path]
     if bpy.app.binary_path:
-        # which the user's saved preferences may not have switched on
+        # enable the extension, which the saved preferences may not have enabled
         extension = __package__.rpartition(".addon.")[0]
         start = [bpy.app.binary_path, "-b", path, "--addons", extension, "--command", "reflection_mesh"]
     return [*start, *words, "--frames", ",".join(map(str, frames)), "--frames-only", "--progress", "WORDS", "--jobs",
@@ -73,7 +73,7 @@ def _command(path: str, words: list[str], frames: list[int]) -> list[str]:
 
 @contextmanager
 def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
-    """Processes that are ended with the block, first by asking them to."""
+    """Start processes and end them with the block, at first with a request to end."""
     processes: list[subprocess.Popen] = []
     try:
         for command in commands:
@@ -93,8 +93,9 @@ def _running(commands: list[list[str]]) -> Iterator[list[subprocess.Popen]]:
 
 
 def _hears_ctrl_c() -> bool:
-    """Whether processes that are started here end by one Ctrl-C: Blender itself does not, nor what a shell has put in
-    the background."""
+    """Return True if one Ctrl-C also ends processes started here. It does not for Blender itself, nor for processes
+    that a shell runs in the background.
+    """
     return os.name == "posix" and not bpy.app.binary_path and signal.getsignal(signal.SIGINT) != signal.SIG_IGN
 
 

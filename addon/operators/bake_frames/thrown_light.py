@@ -20,21 +20,21 @@ from .plan import Plan
 
 @dataclass
 class ThrownLight:
-    """The light of lamps that mirrors throw, frame by frame.
+    """Bakes caustics of lamps frame by frame.
 
     Attributes
     ----------
     pairs : dict of str to (bpy.types.Object, bpy.types.Object)
-        Each mirror and lamp, by what their light is called.
+        Mirror and lamp by the name of their caustics.
     diffuse : list of bpy.types.Object
     places : dict
-        On each lamp, by (mirror, lamp).
+        Number of points on each lamp, by (mirror, lamp).
     receivers : dict
-        Materials of what is lit in the open frame, by result.
+        Materials of the lit objects in the open frame, by result.
     layers : int
-        How many faces lie over each other in the open frame.
+        Number of faces that overlap in the open frame.
     lacks : dict
-        What the light lacks, in sentences, by frames.
+        Sentences on what is missing in the caustics, by frame.
     """
 
     pairs: dict
@@ -48,12 +48,12 @@ class ThrownLight:
 
     @classmethod
     def of(cls, context: bpy.types.Context, plan: Plan, mirrors: list, diffuse: list) -> ThrownLight:
-        """What a plan asks for.
+        """Return the caustics that a plan asks for.
 
         Raises
         ------
         core.ReflectionError
-            Where it names several cameras.
+            If it names several cameras.
         """
         if len(plan.cameras) > 1:
             raise core.ReflectionError("The light that mirrors throw is the same for all cameras: name one at most.")
@@ -63,11 +63,11 @@ class ThrownLight:
 
     @property
     def keys(self) -> list[str]:
-        """Of the results in the records of frames."""
+        """Keys of the results in the records of frames: the names of the caustics."""
         return list(self.pairs)
 
     def take(self, name: str) -> str:
-        """What the records of a sequence are called."""
+        """Return the name under which a sequence stores its records."""
         return f"Caustics {name}".strip()
 
     def file(self, key: str, take: str) -> str:
@@ -78,11 +78,11 @@ class ThrownLight:
                 "places": {key: self.places[pair] for key, pair in self.pairs.items()}}
 
     def origin(self, context: bpy.types.Context, plan: Plan) -> dict:
-        """What the open frame is made from: nobody can tell."""
+        """Return no inputs: changes of caustics are not tracked here."""
         return {}
 
     def frame(self, context: bpy.types.Context, plan: Plan, results: list) -> Steps[None]:
-        """Generate the light of the open frame, adding to `results`; none where nothing is lit."""
+        """Generate the caustics of the open frame and append them to `results`; append nothing if nothing is lit."""
         lamps = list(filter(seen_in(context), plan.lamps))
         lacks = self.lacks.setdefault(context.scene.frame_current, [])
         self.receivers, self.layers = {}, 0
@@ -105,7 +105,7 @@ class ThrownLight:
         return {key: of_pair[pair] for key, pair in self.pairs.items() if pair in of_pair}
 
     def materials_of(self, result: bpy.types.Object | None) -> list | None:
-        """What the record tells of a result's materials: which ones are lit."""
+        """Return the materials of the lit objects to record for a result."""
         return self.receivers.get(result)
 
     def clear(self, context: bpy.types.Context, results: list) -> None:
@@ -117,13 +117,14 @@ class ThrownLight:
 
 
 def pairs_of(mirrors: list, lamps: tuple) -> dict:
-    """Each mirror and lamp, by what their light is called."""
+    """Return each mirror and lamp by the name of their caustics."""
     return {name_of(mirror, lamp, list(lamps)): (mirror, lamp) for mirror in mirrors for lamp in lamps}
 
 
 def playing_light(context: bpy.types.Context, plan: Plan, sequence: Sequence) -> tuple[list, list]:
-    """Let the caustics of the file play a sequence, all or none of them; the objects, and sentences on what is left
-    out."""
+    """Make the caustics of the file play a sequence, all or none of them. Return the objects, and sentences on what is
+    left out.
+    """
     mirrors, diffuse = candidates(context, unmirrored=True)
     pairs, scene = pairs_of(mirrors, plan.lamps), context.scene
     lit = [obj for obj in diffuse if obj not in plan.lamps]

@@ -17,7 +17,7 @@ from .playing import showing
 
 @dataclass(frozen=True)
 class BakedLayer:
-    """What was baked in a view layer: by which plan, and the sequences that came of it."""
+    """A view layer that was baked, its plan and its sequences."""
 
     layer: bpy.types.ViewLayer
     plan: Plan
@@ -52,8 +52,9 @@ def baking_layers(context: bpy.types.Context, layers: list, planned: Callable[[s
 
 
 def show_layers(context: bpy.types.Context, made: list[BakedLayer]) -> tuple[list, list[str]]:
-    """Let the file play what was baked, what a view layer sees in it alone where there are several: the objects, and
-    sentences on what is left out."""
+    """Make the file play the baked sequences. With several view layers, each shows only its own. Return the objects,
+    and sentences on what is left out.
+    """
     objects, remarks = [], []
     for baked in made:
         with context.temp_override(scene=context.scene, view_layer=baked.layer):
@@ -65,7 +66,7 @@ def show_layers(context: bpy.types.Context, made: list[BakedLayer]) -> tuple[lis
 
 
 def _within(context: bpy.types.Context, layer: bpy.types.ViewLayer, steps: Steps) -> Steps:
-    """The steps, each with the view layer as the context's, which it is not between them."""
+    """Run the steps with the view layer as the context's, but not between the steps."""
     scene = context.scene
     try:
         while True:

@@ -1,4 +1,4 @@
-"""What is asked for of the light that mirrors throw, and what of it is as it was."""
+"""The requested settings of caustics, and those kept from the last time."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,8 +12,19 @@ from ...settings import SettingsOfMirrors
 
 @dataclass(frozen=True)
 class Asked:
-    """What is asked for: places on each lamp, the same for all or by (mirror, lamp); the settings of each mirror;
-    whether Cycles' own caustics are left out, for all or by (mirror, lamp); and whether materials that fit are kept."""
+    """Requested settings of caustics.
+
+    Attributes
+    ----------
+    eyes : int or dict
+        Number of points on each lamp, for all or by (mirror, lamp).
+    settings : callable
+        Function from a mirror to its settings.
+    leave_out : bool or dict
+        Leave out Cycles' own caustics, for all or by (mirror, lamp).
+    keep_materials : bool
+        Keep existing materials that fit.
+    """
 
     eyes: int | dict
     settings: SettingsOfMirrors
@@ -29,7 +40,9 @@ class Asked:
 
 def asked_again(context: bpy.types.Context, chosen: Participants, lamps: list, settings: SettingsOfMirrors,
                 given: tuple[int | None, bool | None]) -> Asked:
-    """What is `given` of places and of leaving out, and else what the light that there is was generated with."""
+    """Return the settings in `given`, the number of points and the choice to leave out Cycles' caustics. A None is
+    replaced by the settings of the existing caustics.
+    """
     eyes, leave_out = given
     if leave_out is None:
         leave_out = left_out_before(context, [(mirror, lamp) for mirror in chosen.mirrors for lamp in lamps])
@@ -37,24 +50,25 @@ def asked_again(context: bpy.types.Context, chosen: Participants, lamps: list, s
 
 
 def left_out_before(context: bpy.types.Context, pairs: list) -> dict:
-    """Whether Cycles' own caustics were left out, by those (mirror, lamp) of `pairs` whose light is there."""
+    """Return, for those (mirror, lamp) in `pairs` that have caustics, True if Cycles' own caustics were left out."""
     return {pair: not obj.reflection_mesh.keeps_own for pair in pairs for obj in results_with(context, *pair)[:1]}
 
 
 def left_out_of(objects: list) -> bool | None:
-    """Whether Cycles' own caustics are left out for all of this light, or kept for all; None where some are."""
+    """Return True if Cycles' own caustics are left out for all of these caustics, False if for none, None if for some.
+    """
     left_out = {not obj.reflection_mesh.keeps_own for obj in objects}
     return left_out.pop() if len(left_out) == 1 else None
 
 
 def remember(objects: list, asked: Asked) -> None:
-    """Let light know what it was asked for, for the next time; how many places it comes from it knows."""
+    """Record on the caustics what was requested, for the next time. The number of points is already recorded."""
     for obj in objects:
         keep_own(obj, not asked.leaves_out(obj.reflection_mesh.mirror, obj.reflection_mesh.lamp))
 
 
 def keep_own(light: bpy.types.Object, keeps: bool) -> None:
-    """Let light know whether Cycles adds caustics of its own, and its lamp light the mirror again if so."""
+    """Record on caustics if Cycles adds its own. If it does, let the lamp light the mirror again."""
     record = light.reflection_mesh
     record.keeps_own = keeps
     if keeps:

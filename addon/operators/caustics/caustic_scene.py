@@ -30,24 +30,24 @@ NOTHING_LIT = "Light falls on nothing but lamps: select what it is to fall on, o
 
 @dataclass(frozen=True)
 class CausticScene:
-    """What is read of mirrors, and of what their light meets.
+    """The part of the scene that matters for caustics.
 
     Attributes
     ----------
     depsgraph : bpy.types.Depsgraph
     pairs, dark : list of (bpy.types.Object, bpy.types.Object)
-        Mirrors and lamps whose mirror has faces, and those whose has none.
+        Mirrors and lamps: pairs whose mirror has faces, and pairs whose mirror has none.
     surfaces, places, receivers : dict
-        By mirror: its surface, where its textures are met, and what its light falls on.
+        By mirror: its surface, the places where its textures are sampled, and the objects that its light hits.
     blockers : dict
-        By lamp: what stands in the way of its light.
+        Mesh of occluders by lamp.
     diffuse : DiffuseScene
     sources : list of bpy.types.Object
-        What light falls on, those among it that are hidden now and take part again when they are shown.
+        Lit objects, including hidden ones, which take part again when they are shown.
     origins : dict
-        By (mirror, lamp): the record of what light is made from.
+        Record of the inputs, by (mirror, lamp).
     remarks, lacks : list of str
-        Sentences on what is left out, and on what light lacks for it.
+        Sentences on what is left out, and on what the caustics lack because of it.
     """
 
     depsgraph: bpy.types.Depsgraph
@@ -64,13 +64,13 @@ class CausticScene:
     lacks: list[str]
 
     def parts(self, mirror: bpy.types.Object) -> list[MirrorPart]:
-        """The parts of a mirror that light may meet first, with the other mirrors."""
+        """Return the parts of a mirror that light may meet first, with the other mirrors."""
         return parts_of(self.surfaces[mirror], [other for one, other in self.surfaces.items() if one != mirror])
 
 
 def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: list, pairs: list) -> Steps[CausticScene]:
-    """Read what the light of `lamps` from the mirrors of `chosen` needs, of those `pairs` (mirror, lamp) that are asked
-    for, yielding (fraction, stage).
+    """Read the parts of the scene for caustics of `lamps` by the mirrors of `chosen`, for the requested `pairs`
+    (mirror, lamp), yielding (fraction, stage).
 
     Raises
     ------
@@ -81,7 +81,7 @@ def reading_caustics(context: bpy.types.Context, chosen: Participants, lamps: li
         raise core.ReflectionError(IN_OBJECT_MODE)
     yield 0.0, "Reading the scene"
     depsgraph = context.evaluated_depsgraph_get()
-    # what emits lights others
+    # emitting objects light others and receive no caustics
     chosen = replace(chosen, diffuse=[obj for obj in chosen.diffuse if obj not in lamps])
     if not chosen.diffuse:
         raise core.ReflectionError(NOTHING_LIT)

@@ -18,7 +18,7 @@ from .asked import asked_again, remember
 from .caustic_scene import IN_OBJECT_MODE
 from .throwing import throwing
 
-AS_BEFORE = ("eyes", "leave_out")  # where they are not given
+AS_BEFORE = ("eyes", "leave_out")  # options that keep their last values if they are not given
 
 
 class REFLECTION_MESH_OT_caustics(UsesSettings, ProtectsResults, SteppedOperator, bpy.types.Operator):

@@ -1,4 +1,4 @@
-"""What light that mirrors throw lacks, in sentences for the user."""
+"""Sentences for the user on what caustics lack."""
 from __future__ import annotations
 
 from collections import Counter
@@ -17,7 +17,9 @@ COARSE = 15.0  # degrees between smooth normals and facets: at 23 a fifth of Cyc
 
 
 def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
-    """What is left out of light that is `prepared`, on receivers some of whose materials' colours are `unknown`."""
+    """Return sentences on approximations in the caustics `prepared`. `unknown` are materials of receivers whose colour
+    is not fully known.
+    """
     remarks = [f"The colour of '{material.name}' is not known all over, where it asks for what only its own "
                "object knows or its shaders send light back in another way than diffuse: its light may have "
                "another colour." for material in dict.fromkeys(unknown)]
@@ -35,14 +37,15 @@ def remarks_on(prepared: list[Caustic], unknown: list) -> list[str]:
 
 
 def remarks_on_instances(instancers: list[bpy.types.Object]) -> list[str]:
-    """On objects that instance lamps."""
+    """Return sentences on objects that instance lamps."""
     return [f"No light is thrown of the lamps that '{obj.name}' instances: make them real (Object > Apply > Make "
             "Instances Real)." for obj in instancers]
 
 
 def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, MirrorSurface]) -> list[str]:
-    """Where light ends in the scene that would go on, and which mirrors, whose `surfaces` are told, are coarse
-    or bumped by their materials."""
+    """Return sentences on materials that stop light, and on mirrors (with their `surfaces`) that are coarse or have
+    bumps or displacement.
+    """
     return [*(f"Light ends at '{material.name}', though some of it would go through: give it an Alpha without a "
               "texture; of different ones no more than two count." for material in let_through(scene)),
             *(f"The mirror '{mirror.name}' is coarse and shaded smooth: Cycles bends its normals, and throws more "
@@ -54,8 +57,9 @@ def remarks_on_taking(scene: DiffuseScene, surfaces: dict[bpy.types.Object, Mirr
 
 
 def shortcomings_of_light(name: str, lit: list[CausticMesh]) -> list[str]:
-    """Sentences on the light `name`: the bounds that its parts in `lit`, of one place on the lamp each, have hit, and
-    what their probes have missed."""
+    """Return sentences on the limits that the caustics `name` have reached and on what their probes have missed. `lit`
+    holds the mesh of each part, for one point on the lamp each.
+    """
     probes, missed = (sum(mesh.counts.get(what, 0) for mesh in lit) for what in ("probes", "missed"))
     share, told = 100.0 * missed / max(probes, 1), []
     if missed >= MISSED and share > MISSING:
@@ -67,7 +71,7 @@ def shortcomings_of_light(name: str, lit: list[CausticMesh]) -> list[str]:
 
 
 def _bends(mesh: TriangleMesh) -> float:
-    """The angle between smooth normals and facets, in degrees, in the mean over a mesh; 0 where it is flat."""
+    """Return the mean angle in degrees between smooth normals and facets of a mesh; 0 if it is flat."""
     if mesh.corner_normals is None:
         return 0.0
     corners = mesh.positions[mesh.triangles]

@@ -43,8 +43,9 @@ class NothingThrown(core.ReflectionError):
 
 @dataclass
 class _Left:
-    """What is left out: sentences on what lies in the dark, on light that is refused and on what light lacks, and the
-    (mirror, lamp) that throw nothing at the moment."""
+    """Sentences on lamps and mirrors that are unlit or refused and on what caustics lack, and the (mirror, lamp) pairs
+    in `dark` that cast nothing at the moment.
+    """
 
     unlit: list
     refused: list
@@ -54,21 +55,21 @@ class _Left:
 
 @dataclass(frozen=True)
 class Thrown:
-    """What was made.
+    """The generated caustics.
 
     Attributes
     ----------
     objects : list of bpy.types.Object
     receivers : dict
-        The materials of what is lit, in the order of the object's own, by object.
+        Materials of the lit objects in the order of the object's slots, by object.
     layers : int
-        How many faces of light lie over each other.
+        Number of overlapping faces of caustics.
     remarks : list of str
         Sentences on what is left out.
     dark : list of (bpy.types.Object, bpy.types.Object)
-        Mirrors and lamps that throw nothing at the moment.
+        Mirrors and lamps that cast nothing at the moment.
     lacks : list of str
-        Those of the sentences that say what of the light is missing or another than Cycles'.
+        The sentences on light that is missing or differs from Cycles.
     """
 
     objects: list
@@ -115,7 +116,7 @@ def throwing(context: bpy.types.Context, chosen: Participants, lamps: list, want
 
 
 def _prepared(context: bpy.types.Context, scene: CausticScene, wanted: Asked) -> Steps[tuple[list[Caustic], _Left]]:
-    """The light of each mirror and lamp of a scene that throw any, and what is left out."""
+    """Return the caustics of each mirror and lamp of a scene that cast any, and what is left out."""
     prepared, left = [], _Left(scene.remarks, [], scene.lacks, scene.dark)
     each = (1.0 - READING) / max(len(scene.pairs), 1)
     for number, (mirror, lamp) in enumerate(scene.pairs):
@@ -132,19 +133,20 @@ def _prepared(context: bpy.types.Context, scene: CausticScene, wanted: Asked) ->
         steps = _made(context, name, (mirror, lamp), lit, scene)
         made = replace((yield from part(steps, READING + each * (number + 1), 0.0, name)),
                        eyes=wanted.places(mirror, lamp))
-        # what is seen through sheets passes the layers on each of them
+        # several transparent sheets in a row add their layers
         prepared.append(replace(made, layers=made.layers * len(scene.receivers[mirror]).bit_length()))
     return prepared, left
 
 
 def name_of(mirror: bpy.types.Object, lamp: bpy.types.Object, lamps: list) -> str:
-    """What the light of a mirror and one of `lamps` is called."""
+    """Return the name of the caustics of a mirror and one of `lamps`."""
     return f"{mirror.name} Caustics{f' {lamp.name}' if len(lamps) > 1 else ''}"
 
 
 def _lit(scene: CausticScene, pair: tuple, wanted: Asked) -> Steps[list]:
-    """The light (eye, part, mesh) of each of a lamp's places that each part of a mirror throws on all its receivers,
-    on the triangles of the scene; where none throws any, the error of the last."""
+    """Return the caustics (eye, part, mesh) of each point on the lamp and each part of a mirror, on all receivers. The
+    meshes refer to the triangles of the scene. If there are none, raise the last error.
+    """
     (mirror, lamp), lit, told = pair, [], None
     parts, receivers = scene.parts(mirror), scene.receivers[mirror]
     eyes = eyes_of(scene.depsgraph, lamp, wanted.places(mirror, lamp),
@@ -165,7 +167,7 @@ def _lit(scene: CausticScene, pair: tuple, wanted: Asked) -> Steps[list]:
 
 
 def _joined(meshes: list) -> core.TriangleMesh | None:
-    """Those meshes that are there as one; None where there is none."""
+    """Join the meshes that are not None; return None if there are none."""
     there = [mesh for mesh in meshes if mesh is not None]
     return core.TriangleMesh.joined(there) if there else None
 
@@ -184,7 +186,9 @@ def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: 
 
 
 def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> bool:
-    """Whether the colours of the mirrors that light has met are known all over: those of the first by its textures."""
+    """Return True if the colours of all mirrors that the light has met are fully known; that of the first mirror by
+    `textured`.
+    """
     known = own.tint.constant or any(own.tint.same(tint) for tint in textured)
     later = np.unique(own.colours.tint_of[mesh.met[:, 1:][mesh.met[:, 1:] >= 0]])
     return known and all(own.colours.tints[index].constant for index in later.tolist())

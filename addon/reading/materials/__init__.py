@@ -1,4 +1,4 @@
-"""What nodes of materials say: mirrors, what lets light through or has its own, and what nodes there are."""
+"""Read properties from the shader nodes of materials: mirrors, transparency, emission and the nodes themselves."""
 from .carried_light import emits_alike
 from .dielectric import index_of, upright
 from .image_samples import look_again

@@ -1,4 +1,4 @@
-"""Which materials emit the same on a reflection as on what it shows: by no more than a reflection's mesh carries."""
+"""Find emissive materials whose colour depends only on UV maps and attributes, which a reflection's mesh also has."""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -21,8 +21,9 @@ EVERYWHERE = {"GEOMETRY", "VIEW_LAYER"}
 
 
 def emits_alike(material: bpy.types.Material | None) -> bool:
-    """Whether a material shows what it emits, and no more of it changes with the object, the ray or the side than UV
-    maps and attributes tell: a reflection has these, and nothing else of what it shows."""
+    """Return True for an emissive material whose colour depends only on UV maps and attributes of the mesh. A
+    reflection carries these. It does not carry anything that depends on the object, the ray or the side of the face.
+    """
     return emits(material) and all(map(_is_carried, _behind(surface_shader(material.node_tree))))
 
 
@@ -39,7 +40,7 @@ def _is_carried(node: bpy.types.Node) -> bool:
 
 
 def _behind(node: bpy.types.Node) -> Iterator[bpy.types.Node]:
-    """The nodes that feed a node, with all that is in groups."""
+    """Yield the nodes that feed a node, including those inside groups."""
     for source in feeding(node):
         yield source
         yield from all_nodes(source.node_tree) if source.type == "GROUP" else ()

@@ -7,17 +7,17 @@ import bpy
 
 from ... import compat
 
-# where each kind of node names what it reads
+# property in which each type of node stores the name of the attribute that it reads
 NAMES = {"ATTRIBUTE": "attribute_name", "VERTEX_COLOR": "layer_name", "UVMAP": "uv_map"}
 
 
 def all_nodes(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.Node]:
-    """The nodes of a tree and of all groups in it, each tree once."""
+    """Yield the nodes of a tree and of all groups in it, each tree once."""
     return _nodes(tree, set())
 
 
 def feeding(*nodes: bpy.types.Node) -> list[bpy.types.Node]:
-    """The nodes that feed some nodes, and those that feed these."""
+    """Return the nodes that feed some nodes, directly or through other nodes."""
     found: dict[bpy.types.Node, None] = {}
     left = list(nodes)
     while left:
@@ -29,8 +29,9 @@ def feeding(*nodes: bpy.types.Node) -> list[bpy.types.Node]:
 
 
 def shown_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
-    """The node at which the tree of a material, a lamp or a world ends: Cycles', where engines have their own; None
-    where there is none."""
+    """Return the active output node of the tree of a material, a light or a world: the one for Cycles if there is one,
+    else the one for EEVEE. Return None if the tree has no output.
+    """
     return tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
 
 
@@ -41,7 +42,7 @@ def is_displaced(material: bpy.types.Material | None) -> bool:
 
 
 def one_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
-    """The same node of a copy, at which it ends for every engine from now on: its others go."""
+    """Keep only the shown output of a (copied) tree, make it the output for all engines, and return it."""
     output = shown_output(tree)
     if output is not None:
         for other in [node for node in tree.nodes if node.type == output.type and node != output]:
@@ -51,7 +52,7 @@ def one_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
 
 
 def asked_attributes(materials: Iterable[bpy.types.Material | None]) -> set[str]:
-    """Names of the attributes that materials read of what they are on."""
+    """Return the names of the mesh attributes that `materials` read."""
     return {getattr(node, NAMES[node.type]) for material in materials
             if material is not None and compat.uses_nodes(material)
             for node in all_nodes(material.node_tree)

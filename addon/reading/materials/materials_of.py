@@ -16,7 +16,9 @@ REPAINTING = {"BEVEL", "BOOLEAN", "MESH_SEQUENCE_CACHE", "NODES", "SOLIDIFY", "W
 
 
 def materials_of(obj: bpy.types.Object) -> list:
-    """One for each slot, None where that is empty; where Geometry Nodes give it others, those."""
+    """Return one material for each slot, None for an empty slot. Materials that Geometry Nodes assign replace the
+    object's. An instance of a collection has those of the members as well.
+    """
     own = own_materials(obj)
     if obj.instance_type != "COLLECTION" or obj.instance_collection is None:
         return own
@@ -24,12 +26,14 @@ def materials_of(obj: bpy.types.Object) -> list:
 
 
 def own_materials(obj: bpy.types.Object) -> list:
-    """As `materials_of`, without those of a collection that it is an instance of."""
+    """Return `materials_of` without the materials of an instanced collection."""
     return _in_slots(_shown(obj))
 
 
 def materials_on_faces(obj: bpy.types.Object) -> list:
-    """Those of an object's slots, without those that no face has: lists of imported meshes are full of them."""
+    """Return the materials of an object's slots that at least one face uses. Imported meshes often have many unused
+    slots.
+    """
     shown = _shown(obj)
     own = _in_slots(shown)
     repainted = shown == obj and any(modifier.type in REPAINTING for modifier in obj.modifiers)
@@ -37,12 +41,12 @@ def materials_on_faces(obj: bpy.types.Object) -> list:
         return own
     used = np.zeros(len(shown.data.polygons), dtype=np.int32)
     shown.data.polygons.foreach_get("material_index", used)
-    # as Blender does, the last slot where there are too few
+    # like Blender, use the last slot for indices that are too large
     return [own[index] for index in np.flatnonzero(np.bincount(used.clip(0, len(own) - 1))).tolist()]
 
 
 def reflecting_materials(mirrors: list) -> list:
-    """The distinct materials of `mirrors` that reflect; of one that has none that do, all of them."""
+    """Return the distinct materials of `mirrors` that reflect. If none of a mirror's do, return all of that mirror."""
     return list(dict.fromkeys(material for mirror in mirrors for material in _reflecting(mirror)))
 
 
@@ -54,12 +58,14 @@ def _reflecting(mirror: bpy.types.Object) -> list:
 
 
 def all_materials_of(mirror: bpy.types.Object) -> list:
-    """As `materials_of`, with those of what it instances by Geometry Nodes, particles, vertices or faces."""
+    """Return `materials_of`, plus the materials of instances by Geometry Nodes, particles, vertices or faces."""
     return materials_of(mirror) + instanced_materials([mirror])[mirror]
 
 
 def instanced_materials(objects: list) -> dict:
-    """The materials of what each of some objects instances otherwise than as a collection, as it was evaluated last."""
+    """Return, for each object, the materials of its instances that are not collection instances. Read them from the
+    last evaluation, without a new one.
+    """
     found: dict = {obj: [] for obj in objects}
     depsgraph = getattr(getattr(bpy.context, "view_layer", None), "depsgraph", None)
     if depsgraph is None or not any(map(instances_otherwise, objects)):
@@ -78,8 +84,9 @@ def instances_otherwise(obj: bpy.types.Object) -> bool:
 
 
 def _shown(obj: bpy.types.Object) -> bpy.types.Object:
-    """An object as it was evaluated last, where Geometry Nodes may give it materials; nothing is evaluated for that,
-    since every redraw may ask."""
+    """Return the object as last evaluated if Geometry Nodes may assign its materials, else the object itself. Do not
+    evaluate anything: this is called at every redraw.
+    """
     if not any(modifier.type == "NODES" and modifier.show_viewport for modifier in obj.modifiers):
         return obj
     layer = getattr(bpy.context, "view_layer", None)
@@ -89,7 +96,7 @@ def _shown(obj: bpy.types.Object) -> bpy.types.Object:
 
 def _in_slots(obj: bpy.types.Object) -> list:
     materials = [slot.material for slot in obj.material_slots]
-    # by their names: what the copies were made of may have been removed since
+    # look materials up by name: the originals of evaluated copies may have been removed since
     return [bpy.data.materials.get(_key(material)) if material is not None and material.is_evaluated else material
             for material in materials]
 
@@ -105,14 +112,15 @@ def goes_by_name(obj: bpy.types.Object) -> bool:
 
 
 def all_fog(obj: bpy.types.Object) -> bool:
-    """Whether an object shows no surface, but what fills it."""
+    """Return True for an object whose materials have only a volume and no surface."""
     shown = materials_of(obj)
     return bool(shown) and all(map(is_fog, shown))
 
 
 def materials_shown(depsgraph: bpy.types.Depsgraph, objects: list) -> dict:
-    """The distinct materials of all that each of some objects is at the moment, those among them that Geometry Nodes
-    give it and those of its instances, by object."""
+    """Return, by object, the distinct materials that each object currently shows, including those of Geometry Nodes and
+    of its instances.
+    """
     found: dict = {obj: {} for obj in objects}
     for instance in depsgraph.object_instances:
         owner = (instance.parent if instance.is_instance else instance.object).original

@@ -12,7 +12,7 @@ from .material_nodes import all_nodes
 from .shader_graph import Groups, shaders_of, surface_shader, surface_shaders
 from .texture_values import Inputs, Unknown, Unread
 
-# as Blender holds them, in single precision: a tenth there is more than 0.1
+# Blender stores single precision, in which 0.1 is slightly more than 0.1
 SHARP_ROUGHNESS = float(np.float32(0.1))
 FULL_METALLIC = float(np.float32(0.9))
 MIRRORS = {"BSDF_GLOSSY", "BSDF_METALLIC"}
@@ -27,7 +27,9 @@ def is_mirror(material: bpy.types.Material | None) -> bool:
 
 
 def least_roughness(material: bpy.types.Material | None) -> float | None:
-    """Return `mirror_roughness` without a look at images that have not been read: 0 where only they could tell."""
+    """Return `mirror_roughness` without loading images. Return 0 if the roughness depends on an image that is not
+    loaded.
+    """
     try:
         return mirror_roughness(material, read=False)
     except Unread:
@@ -35,20 +37,20 @@ def least_roughness(material: bpy.types.Material | None) -> float | None:
 
 
 def mirror_roughness(material: bpy.types.Material | None, read: bool = True) -> float | None:
-    """Return how rough a material is that is a mirror, sharp or not: its surface is metal or gloss and nothing else.
+    """Return the roughness of a mirror material, sharp or not: its surface consists of metal or gloss only.
 
-    Of textures the median counts, of the roughness where the surface is metal; inf where nodes do not tell it. None
-    for what is no mirror, and for what is metal on less than half of it.
+    Textured roughness counts with its median where the surface is metal. Return inf if the nodes do not determine it.
+    Return None for other materials, and for those that are metal on less than half of the surface.
 
     Parameters
     ----------
     read : bool
-        Whether images are read that have not been.
+        Load images that are not loaded yet.
 
     Raises
     ------
     Unread
-        Where it is up to an image that is not to be read.
+        If the roughness depends on an image that may not be loaded.
     """
     if material is None:
         return None
@@ -59,7 +61,7 @@ def mirror_roughness(material: bpy.types.Material | None, read: bool = True) -> 
 
 
 def which_reflect(materials: Sequence[bpy.types.Material | None]) -> list[bool]:
-    """Return for each material of a mirror whether its faces reflect.
+    """Return for each material of a mirror (bool) if its faces reflect.
 
     Those do that are sharp mirrors; where there are none the rough ones, and where there are none of these all.
     """
@@ -70,8 +72,9 @@ def which_reflect(materials: Sequence[bpy.types.Material | None]) -> list[bool]:
 
 
 def shines(material: bpy.types.Material | None) -> bool:
-    """Whether what is no mirror mirrors a little as well: a gloss that is mixed in, or a Principled BSDF that has
-    a coat, or is not told to have no specular."""
+    """Return True for a material with a weak reflection: any mixed-in gloss, or a Principled BSDF with a coat or a
+    non-zero specular level.
+    """
     if material is None or not compat.uses_nodes(material):
         return False
     return any(shader.type in MIRRORS or shader.type == "BSDF_PRINCIPLED" and (
@@ -102,13 +105,13 @@ def is_metal(shader: bpy.types.Node, groups: Groups = ()) -> bool:
 
 
 def has_sharp_coat(shader: bpy.types.Node) -> bool:
-    """Whether a Principled BSDF is coated with what mirrors."""
+    """Return True for a Principled BSDF with a coat of low roughness."""
     weight = shader.inputs["Coat Weight"]
     return (weight.is_linked or weight.default_value > 0.0) and _at_most(shader, "Coat Roughness", SHARP_ROUGHNESS)
 
 
 def is_exact(material: bpy.types.Material | None) -> bool:
-    """Whether all that mirrors in a material does so without any roughness."""
+    """Return True if all glossy shaders in a material have a roughness of exactly 0."""
     if material is None or not compat.uses_nodes(material):
         return False
     shaders = [node for node in all_nodes(material.node_tree) if node.type in MIRRORS | ROUGHENED]
@@ -117,7 +120,7 @@ def is_exact(material: bpy.types.Material | None) -> bool:
 
 
 def emits(material: bpy.types.Material | None) -> bool:
-    """Whether a material shows what it emits, and no lamp changes it."""
+    """Return True for a material whose surface is an Emission shader, so that lamps do not change it."""
     if material is None or not compat.uses_nodes(material):
         return False
     shader = surface_shader(material.node_tree)
@@ -130,7 +133,7 @@ def _roughness(shader: bpy.types.Node, groups: Groups, read: bool) -> float | No
     if shader.type == "BSDF_PRINCIPLED":
         metallic = shader.inputs["Metallic"]
         if not metallic.is_linked and metallic.default_value < FULL_METALLIC:
-            # as most materials are, of which each redraw asks
+            # most materials end here, and every redraw asks
             return None
         try:
             metal = inputs["Metallic"] >= FULL_METALLIC

@@ -1,4 +1,4 @@
-"""Which materials let no light through: what lies behind them whole is not seen, in Cycles as in any engine."""
+"""Find materials that transmit no light: objects behind them are hidden."""
 from __future__ import annotations
 
 import bpy
@@ -8,28 +8,29 @@ from .material_nodes import all_nodes, shown_output
 from .shader_graph import surface_shaders
 
 OPEN_SHADERS = {"BSDF_TRANSPARENT", "BSDF_GLASS", "BSDF_REFRACTION", "HOLDOUT"}
-# sockets of a Principled BSDF, and the value at which each lets nothing through
+# sockets of a Principled BSDF, and the value at which each transmits nothing
 CLOSED = {"Alpha": 1.0, "Transmission Weight": 0.0}
-WHITE = 0.9  # of each colour, what clear glass lets through at least
+WHITE = 0.9  # lowest transmitted share of each colour channel of untinted glass
 
 
 def is_opaque(material: bpy.types.Material | None) -> bool:
-    """Whether no light goes through `material`, as far as its nodes tell, whether they reach its output or not."""
+    """Return True if no node of `material` transmits light. Nodes that are not connected to the output count too."""
     if material is None or not compat.uses_nodes(material):
         return True
     return not (is_fog(material) or any(_lets_through(node) for node in all_nodes(material.node_tree)))
 
 
 def fog_of(owner: bpy.types.Material | bpy.types.World | None) -> bpy.types.NodeSocket | None:
-    """The socket into which a material's, or a world's, nodes put fog or what else fills a volume; None where there is
-    nothing."""
+    """Return the socket that is linked to the Volume input of a material's or a world's output; None if nothing is
+    linked.
+    """
     output = shown_output(owner.node_tree) if owner is not None and compat.uses_nodes(owner) else None
     socket = None if output is None else output.inputs["Volume"]
     return socket if socket is not None and socket.is_linked else None
 
 
 def is_fog(material: bpy.types.Material | None) -> bool:
-    """Whether `material` fills what it bounds and is no surface: light goes straight through its faces."""
+    """Return True if `material` has a volume and no surface: light passes straight through its faces."""
     socket = fog_of(material)
     return socket is not None and not socket.node.inputs["Surface"].is_linked
 
@@ -43,8 +44,7 @@ def _lets_through(node: bpy.types.Node) -> bool:
 
 
 def is_clear(material: bpy.types.Material | None) -> bool:
-    """Whether `material` sends nothing of light back but what it mirrors, and lets all else through: glass, what is
-    transparent, and mixes of these."""
+    """Return True if `material` only reflects specularly or transmits: glass, transparency, and mixes of these."""
     if material is None or not compat.uses_nodes(material):
         return False
     shaders = surface_shaders(material.node_tree)
@@ -52,7 +52,7 @@ def is_clear(material: bpy.types.Material | None) -> bool:
 
 
 def is_colourless(material: bpy.types.Material | None) -> bool:
-    """Return True for a clear material that changes no colour, so that nobody misses it where something covers it."""
+    """Return True for a clear material that does not tint light. If something covers it, nobody misses it."""
     return is_fog(material) or is_clear(material) and not any(map(_is_tinted, surface_shaders(material.node_tree)))
 
 

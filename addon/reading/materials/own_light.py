@@ -1,4 +1,4 @@
-"""Which materials have a light of their own."""
+"""Find materials that emit light."""
 from __future__ import annotations
 
 import bpy
@@ -6,19 +6,19 @@ import bpy
 from ... import compat
 from .material_nodes import all_nodes
 
-# the sockets of each kind of node that tell how strong its light is, and of which colour
+# names of the sockets for emission strength and colour, by node type
 LIGHT = {"EMISSION": ("Strength", "Color"), "BSDF_PRINCIPLED": ("Emission Strength", "Emission Color")}
-PAPER = 1.0  # the light that it has
+PAPER = 1.0  # emission strength that equals the light of white paper
 
 
 def glows(material: bpy.types.Material | None) -> bool:
-    """Whether a material may send light of its own, be it no more than a part of what is seen of it."""
+    """Return True if any node of `material` may emit light."""
     return (material is not None and compat.uses_nodes(material)
             and any(map(sends_light, all_nodes(material.node_tree))))
 
 
 def sends_light(node: bpy.types.Node) -> bool:
-    """Whether a node is a shader that has light of its own."""
+    """Return True for a shader node that emits light: its strength and its colour are linked or not zero."""
     if node.type not in LIGHT:
         return False
     strength, colour = (node.inputs[name] for name in LIGHT[node.type])
@@ -28,8 +28,9 @@ def sends_light(node: bpy.types.Node) -> bool:
 
 
 def outshines_paper(material: bpy.types.Material | None) -> bool:
-    """Whether light of a material's own may be brighter than white paper, and goes by other nodes: what is linked may
-    be white, and so strong."""
+    """Return True if `material` may emit more than white paper reflects, with a colour or a strength from other nodes.
+    Linked colours count as white, linked strengths as large.
+    """
     return (material is not None and compat.uses_nodes(material)
             and any(map(_outshines_paper, all_nodes(material.node_tree))))
 

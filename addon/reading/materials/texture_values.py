@@ -14,8 +14,8 @@ from .image_samples import COUNT, is_read, samples_of
 from .shader_graph import Groups, fed_by, outermost
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-STEPS = np.linspace(0.0, 1.0, 257)  # where ramps and curves are read
-# numbers from 0 to 1 in no order, whose median is that of noise
+STEPS = np.linspace(0.0, 1.0, 257)  # positions at which ramps and curves are sampled
+# quasi-random numbers from 0 to 1; their median is that of noise
 EVEN = (np.arange(COUNT) * 0.6180339887498949) % 1.0
 PROCEDURAL = {"TEX_GRADIENT", "TEX_MAGIC", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_WHITE_NOISE"}
 BINARY: dict[str, Callable] = {
@@ -28,21 +28,23 @@ UNARY: dict[str, Callable] = {"SQRT": lambda one: np.sqrt(np.maximum(one, 0.0)),
 
 
 class Unknown(Exception):
-    """A value that the material alone does not tell."""
+    """The value depends on more than the material."""
 
 
 class Unread(Unknown):
-    """A value of an image that has not been read."""
+    """The value depends on an image that is not loaded."""
 
 
 class Inputs:
-    """Values of a node's inputs, by name or place; images are read where that is said, else they raise `Unread`."""
+    """Sample the values of a node's inputs, by name or index. Unloaded images are loaded if `read` is set, else they
+    raise `Unread`.
+    """
 
     def __init__(self, node: bpy.types.Node, groups: Groups = (), read: bool = True) -> None:
         self.node, self.groups, self.read = node, groups, read
 
     def __getitem__(self, which: str | int) -> np.ndarray:
-        """Raises `Unknown`."""
+        """Return the sampled values (n,) or (n, 3) of an input. Raise `Unknown` if the nodes do not determine them."""
         socket = self.node.inputs[which]
         source, inside = fed_by(socket, self.groups)
         if source is None:
@@ -58,7 +60,7 @@ class Inputs:
 
 
 def _of_output(output: bpy.types.NodeSocket, given: Inputs) -> np.ndarray:
-    """Return what a node puts out at one of its sockets.
+    """Return the sampled values of an output socket of a node.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What part of light goes straight through materials: what is open in part, as leaves, curtains and films are."""
+"""Compute the share of light that passes straight through partly transparent materials such as leaves and curtains."""
 from __future__ import annotations
 
 import bpy
@@ -8,12 +8,13 @@ from .material_nodes import shown_output
 from .opaque_materials import is_clear, is_fog
 from .shader_graph import MIXING, Groups, fed_by, outermost
 
-GREY = 1e-3  # by how much red, green and blue of what goes through may differ
+GREY = 1e-3  # largest difference between red, green and blue of a transparent colour that counts as grey
 
 
 def transparency(material: bpy.types.Material | None) -> float | None:
-    """The part of light that goes straight through `material`, 1 for clear glass; None where its nodes tell another
-    one here and there, or for each colour."""
+    """Return the share of light that passes straight through `material`, 1 for clear glass. Return None if the share
+    varies over the surface or differs between the colour channels.
+    """
     if material is None or not compat.uses_nodes(material):
         return 0.0
     if is_fog(material) or is_clear(material):
@@ -23,7 +24,7 @@ def transparency(material: bpy.types.Material | None) -> float | None:
 
 
 def _through(socket: bpy.types.NodeSocket, groups: Groups = ()) -> float | None:
-    """The part that goes through what is plugged into a socket for shaders."""
+    """Return the share that passes through the shader linked to a shader socket, None if it varies."""
     source, groups = fed_by(socket, groups)
     if source is None:
         return 0.0
@@ -58,7 +59,7 @@ def _through_both(node: bpy.types.Node, groups: Groups) -> float | None:
 
 
 def _number(socket: bpy.types.NodeSocket, groups: Groups) -> float | None:
-    """The number that a socket is given, where it is the same everywhere."""
+    """Return the constant value of a socket, None if the value varies."""
     source, _ = fed_by(socket, groups)
     if source is None:
         return float(outermost(socket, groups)[0].default_value)

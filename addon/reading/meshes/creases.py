@@ -1,7 +1,7 @@
-"""Which edges of a mesh are creases in the places where it stands.
+"""Find the creases of a mesh in each of its placements.
 
-Where a mesh is only moved, turned and scaled evenly its angles are its own: they are told once, but for those so near
-the limit that rounding decides.
+A placement that is only moved, rotated and evenly scaled keeps the angles between faces. So these are computed once,
+except for edges so near the limit that rounding decides.
 """
 from __future__ import annotations
 
@@ -11,28 +11,30 @@ import numpy as np
 
 # faces that meet at less than 140 degrees, Line Art's own default, make a crease
 CREASE = np.cos(np.radians(180.0 - 140.0))
-EVEN = 1e-5  # of its size: what the metric of a place differs from that of one which keeps all angles
-DOUBT = 1e-4  # of a cosine: several times what that can change
+EVEN = 1e-5  # largest deviation of a placement's metric from an even scale, relative to its size
+DOUBT = 1e-4  # relative distance of a cosine to the limit below which each placement is tested
 
 
 @dataclass(frozen=True)
 class Creases:
-    """The creases of a mesh in its places (k).
+    """The creases of a mesh in its k placements.
 
     Attributes
     ----------
     creased : (e,) bool
-        Edges that are creases in all places that are `even`, if they are `sure`.
+        True for edges that are creases in all `even` placements; valid where `sure` is set.
     sure : (e,) bool
+        False for edges so near the limit that they are tested in each placement.
     even : (k,) bool
+        True for placements that keep angles.
     meeting : (2, c) int32
-        The faces on both sides of an edge that has two.
+        The faces on both sides of each edge that has two.
     meeting_of : (e,) int32
-        Where each edge is among those, -1 where it is not.
+        Column of each edge in `meeting`, -1 for edges without two faces.
     normals : (p, 3) float32
-        Of the faces.
+        Normals of the faces.
     metrics : (k, 3, 3) float64
-        Scalar products of normals in each place.
+        Matrices of the scalar product of two normals in each placement.
     """
 
     creased: np.ndarray
@@ -45,7 +47,7 @@ class Creases:
 
     @classmethod
     def of(cls, meeting: np.ndarray, meeting_of: np.ndarray, normals: np.ndarray, cofactors: np.ndarray) -> Creases:
-        """The creases where `cofactors` (k, 3, 3) take the normals of the mesh to the world."""
+        """Compute the creases for placements whose matrices `cofactors` (k, 3, 3) transform normals to world space."""
         metrics = np.matmul(cofactors.swapaxes(1, 2), cofactors)
         one, other = normals[meeting].astype(np.float64)
         creased, sure = np.zeros(len(meeting_of), dtype=bool), np.ones(len(meeting_of), dtype=bool)
@@ -62,7 +64,7 @@ class Creases:
         return cls(creased, sure, even, meeting, meeting_of, normals, metrics)
 
     def among(self, edge: np.ndarray, place: np.ndarray) -> np.ndarray:
-        """Which of the edges (n, 3) are creases in the places (n,)."""
+        """Return True (n, 3) for each of the edges `edge` (n, 3) that is a crease in its placement `place` (n,)."""
         found = self.creased[edge]
         if self.sure.all() and self.even.all():
             return found
@@ -76,8 +78,9 @@ class Creases:
 
 def _products(one: np.ndarray, other: np.ndarray, turned: np.ndarray,
               other_turned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Scalar products of normals (n, 3), by these times the metric of the place where they stand, and the ones below
-    which faces meet in a crease."""
+    """Return the scalar products (n,) of the normals `one` and `other` (n, 3) in a placement, and the limits (n,) below
+    which their faces meet in a crease. `turned` and `other_turned` are the normals times the placement's metric.
+    """
     return _dot(turned, other), CREASE * np.sqrt(_dot(turned, one) * _dot(other_turned, other))
 
 

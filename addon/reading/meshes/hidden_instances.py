@@ -1,4 +1,4 @@
-"""Which instances of what is hidden in renders by itself are rendered all the same."""
+"""Decide which instances of objects that are disabled in renders are rendered nevertheless."""
 from __future__ import annotations
 
 import bpy
@@ -6,14 +6,14 @@ import bpy
 from ... import compat
 from ..materials import all_nodes
 
-NO_NUMBER = 2**31 - 1  # of a level of instances that there is not: a whole collection has one, and one of each object
+NO_NUMBER = 2**31 - 1  # persistent_id of an unused level of instances; whole collections use one, objects two
 
 
 def is_rendered(instance: bpy.types.DepsgraphObjectInstance, given: dict) -> bool:
-    """Whether renders show something at a place. What Geometry Nodes or particles instance they show though it is
-    hidden there itself, as what is instanced mostly is; of collections, vertices and faces they do not.
+    """Return True if renders show an instance. Renders show instances by Geometry Nodes or particles even if the
+    instanced object is disabled in renders. They do not show such instances of collections, vertices and faces.
 
-    `given` keeps which objects nodes instance one by one, from one instance of a depsgraph to the next.
+    `given` caches the objects that the nodes of each instancer instance one by one, within one depsgraph.
     """
     original = instance.object.original
     if not original.hide_render:
@@ -27,14 +27,14 @@ def is_rendered(instance: bpy.types.DepsgraphObjectInstance, given: dict) -> boo
         return False
     if instance.persistent_id[1] == NO_NUMBER:
         return True
-    # one level deeper are members of a whole collection as well as what "Object Info" puts on points
+    # two levels are used by members of a whole collection and by objects that "Object Info" instances on points
     if parent not in given:
         given[parent] = _given_to_nodes(parent)
     return original in given[parent]
 
 
 def _given_to_nodes(obj: bpy.types.Object) -> set:
-    """The objects that the Geometry Nodes of an object, and of those, can instance one by one."""
+    """Return the objects that the Geometry Nodes of an object, and of these objects, may instance one by one."""
     found: dict = {obj: None}
     left = [obj]
     while left:

@@ -1,4 +1,4 @@
-"""What materials ask of the object that they are on, of the instance that it is and of its instancer, as numbers."""
+"""Evaluate attributes of objects, instances and instancers that materials read, as numbers."""
 from __future__ import annotations
 
 import bpy
@@ -15,7 +15,7 @@ PARTICLE = {"Age": "birth_time", "Lifetime": "lifetime", "Location": "location",
 
 
 def questions(node: bpy.types.Node) -> list[Question]:
-    """What a node asks, by each of its outputs that is linked."""
+    """Return the attributes that a node reads through its linked outputs."""
     if node.type == "ATTRIBUTE":
         return [(node.attribute_type, node.attribute_name)] if node.attribute_type in {"OBJECT", "INSTANCER"} else []
     if node.type == "PARTICLE_INFO":
@@ -27,7 +27,7 @@ def questions(node: bpy.types.Node) -> list[Question]:
 
 
 class InstanceAnswers:
-    """What materials ask of each place of a depsgraph at a frame."""
+    """Evaluate the attributes that materials read at each instance of a depsgraph, at one frame."""
 
     def __init__(self, frame: float) -> None:
         self.frame = frame
@@ -35,7 +35,7 @@ class InstanceAnswers:
         self.instances: dict = {}
 
     def of(self, instance: bpy.types.DepsgraphObjectInstance, materials: tuple) -> dict[Question, tuple]:
-        """Four numbers for each question of the materials that has an answer there, as Cycles finds it."""
+        """Return four numbers for each attribute that the materials read and that the instance has, as in Cycles."""
         if materials not in self.asked:
             self.asked[materials] = {question for material in materials
                                      if material is not None and compat.uses_nodes(material)
@@ -54,15 +54,17 @@ class InstanceAnswers:
         return found
 
     def _of_instancer(self, instance: bpy.types.DepsgraphObjectInstance, name: str) -> tuple | None:
-        """By nodes that made the instance, by particles, or by the instancer itself."""
+        """Return an attribute from the nodes that made the instance, from its particle settings, or from the instancer.
+        """
         found = self._by_nodes(instance, name)
         if found is None and instance.particle_system is not None:
             found = _property(instance.particle_system.settings, name)
         return found or _property(instance.parent, name)
 
     def _by_nodes(self, instance: bpy.types.DepsgraphObjectInstance, name: str) -> tuple | None:
-        """What an attribute of instances holds, of the innermost that has it; nothing before Blender 4.5, which
-        does not tell."""
+        """Return the value of an instance attribute from Geometry Nodes, from the innermost level that has it. Return
+        None before Blender 4.5, which does not offer it.
+        """
         parent, found = instance.parent, None
         if not hasattr(parent, "evaluated_geometry"):
             return None
@@ -83,7 +85,7 @@ def _of_object(obj: bpy.types.Object, name: str) -> tuple | None:
 
 
 def _property(owner: bpy.types.ID, name: str) -> tuple | None:
-    """A property of one's own, or one that everything of its kind has, as red, green, blue and alpha."""
+    """Return a custom property, or a built-in property, as red, green, blue and alpha; None if there is none."""
     value = owner.get(name)
     if value is None:
         try:
@@ -104,7 +106,7 @@ def _four(value) -> tuple | None:
 
 
 class _Instances:
-    """The instances in a geometry, told apart by their numbers."""
+    """The instances in a geometry, looked up by their id."""
 
     def __init__(self, geometry) -> None:
         self.geometry, self.points = geometry, geometry.instances_pointcloud()
@@ -113,7 +115,7 @@ class _Instances:
         self.rows = None if ids is None else {entry.value: row for row, entry in reversed(list(enumerate(ids.data)))}
 
     def row(self, number: int) -> int | None:
-        """Which of them has a number."""
+        """Return the index of the instance with an id, None if there is none."""
         if self.points is None:
             return None
         row = number if self.rows is None else self.rows.get(number)
@@ -128,7 +130,7 @@ class _Instances:
                           None))
 
     def within(self, row: int) -> _Instances | None:
-        """Those that one of them consists of."""
+        """Return the instances that the instance at index `row` consists of, None if it has none."""
         index = self.points.attributes[".reference_index"].data[row].value
         if index not in self.parts:
             part = self.geometry.instance_references()[index]
@@ -137,14 +139,14 @@ class _Instances:
 
 
 def _of_dupli(instance: bpy.types.DepsgraphObjectInstance, what: str) -> tuple:
-    """Where on the instancer it is made."""
+    """Return the Generated or UV coordinates of the instancer's surface where the instance was made."""
     if what == "UV":
         return (*instance.uv, 0.0, 1.0)
     return (*(0.5 * number - 0.5 for number in instance.orco), 1.0)
 
 
 def _of_particle(instance: bpy.types.DepsgraphObjectInstance, what: str, frame: float) -> tuple:
-    """What Particle Info tells; of what is no particle, and of their children, that of one that is nowhere."""
+    """Return an output of Particle Info. Instances that are no particles, and child particles, get zeros."""
     system, index = instance.particle_system, instance.persistent_id[0]
     there = instance.is_instance and system is not None and index < len(system.particles)
     if what == "Index":
@@ -158,7 +160,7 @@ def _of_particle(instance: bpy.types.DepsgraphObjectInstance, what: str, frame: 
 
 
 def _random(number: int) -> float:
-    """Cycles' number from 0 to 1 (B. Jenkins, "lookup3.c", 2006, of two words)."""
+    """Return Cycles' random number from 0 to 1 for an integer (B. Jenkins, "lookup3.c", 2006, of two words)."""
     a = b = c = (0xdeadbeef + (2 << 2) + 13) & MASK
     a = (a + number) & MASK
     for turn in (14, 11, 25, 16, 4, 14, 24):

@@ -1,4 +1,4 @@
-"""What the corners of several meshes show, in as few layers as they have names."""
+"""Join the UV maps, colours and attributes of several meshes into as few layers as there are names."""
 from __future__ import annotations
 
 import itertools
@@ -11,10 +11,10 @@ from .read_meshes import Placed
 
 
 def join_layers(placed: list[Placed]) -> Layers:
-    """The layers of the meshes at the corners of all triangles: values (m, 3, c).
+    """Join the layers of the meshes, with values (m, 3, c) at the corners of all triangles.
 
-    The active one has of each mesh its own active one. Where that has the first one's name on a mesh of which another
-    is active, materials may ask for both, and it is a layer of its own.
+    The active layer of the result takes the active layer of each mesh. If another mesh has a layer of that name that is
+    not active, materials may read both: then the active layer gets a name of its own.
     """
     active_uv, active_colour = (_active(placed, *kind) for kind in (("uv_maps", "active_uv"),
                                                                      ("colours", "active_colour")))
@@ -25,7 +25,7 @@ def join_layers(placed: list[Placed]) -> Layers:
 
 
 def _active(placed: list[Placed], kind: str, active: str) -> str:
-    """The name of the active layer of a kind, "" where there is none."""
+    """Return the name of the joined active layer of a kind, "" if no mesh has one."""
     found = next((getattr(item.mesh, active) for item in placed if getattr(item.mesh, active)), "")
     if any(found in getattr(item.mesh, kind) and getattr(item.mesh, active) != found for item in placed):
         taken = {name for some in ("uv_maps", "colours", "numbers") for name in _names(placed, some)}
@@ -35,13 +35,15 @@ def _active(placed: list[Placed], kind: str, active: str) -> str:
 
 
 def _names(placed: list[Placed], kind: str, active: str = "") -> list:
-    """The names of all layers of a kind, and that of the active one."""
+    """Return the names of all layers of a kind, including the active one."""
     names = dict.fromkeys(name for item in placed for name in getattr(item.mesh, kind))
     return list(names | {active: None} if active else names)
 
 
 def _uv_map(placed: list[Placed], name: str, active: bool) -> PlacedValues:
-    """Values (m, 3, 2): in the active map a mesh shows its own active one; one without a map shows zeros."""
+    """Return the values (m, 3, 2) of a UV map; of each mesh's own active map if `active` is set. Meshes without the map
+    get zeros.
+    """
     def values(part: Part) -> np.ndarray | float:
         known = part.mesh.uv_maps.get(part.mesh.active_uv if active else name)
         return 0.0 if known is None else known[part.corners]
@@ -49,7 +51,7 @@ def _uv_map(placed: list[Placed], name: str, active: bool) -> PlacedValues:
 
 
 def _colour(placed: list[Placed], name: str, active: bool) -> tuple:
-    """Type and values (m, 3, 4), as `_uv_map`; where meshes differ in type the colours are kept as floats."""
+    """Return the type and the values (m, 3, 4) of a colour layer, see `_uv_map`. Mixed types become float colours."""
     def entry(mesh) -> tuple:
         return mesh.colours.get(mesh.active_colour if active else name) or (None, None)
 
@@ -62,8 +64,9 @@ def _colour(placed: list[Placed], name: str, active: bool) -> tuple:
 
 
 def _numbers(placed: list[Placed], name: str) -> tuple:
-    """Type and values (m, 3, c), zeros where a mesh has none, as engines have it; where meshes differ in type as
-    vectors, of which a single number is each component."""
+    """Return the type and the values (m, 3, c) of an attribute. Meshes without it get zeros, as in the engines. Mixed
+    types become vectors; a single number fills all components.
+    """
     entries = [item.mesh.numbers.get(name) for item in placed]
     kind = "FLOAT" if all(entry is None or entry[0] == "FLOAT" for entry in entries) else "FLOAT_VECTOR"
 

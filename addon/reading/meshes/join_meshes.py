@@ -1,4 +1,4 @@
-"""Local meshes -> one mesh in world space, each triangle knowing which object and which of its triangles it is."""
+"""Join local meshes into one mesh in world space, with the source object and source triangle of each triangle."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -81,19 +81,21 @@ class MirrorSurface:
 
 
 def read_scene(depsgraph: bpy.types.Depsgraph, objects: list, unmirrored: bool = False) -> DiffuseScene:
-    """The diffuse `objects` joined in world space; with instances that are hidden from glossy rays, and so from
-    mirrors, where `unmirrored` is said.
+    """Read the diffuse `objects` and join them in world space. Include instances that are hidden from glossy rays (and
+    so from mirrors) only if `unmirrored` is set.
 
     Raises
     ------
+    NothingSeen
+        If the objects have no faces.
     ReflectionError
-        Where they have no faces, `NothingSeen`, or a coordinate is not a finite number.
+        If a coordinate is not a finite number.
     """
     return join_scene(read_meshes(depsgraph, objects, mirror=False, unmirrored=unmirrored), objects)
 
 
 def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
-    """As `read_scene`, of meshes that have been read."""
+    """Join meshes that have been read into the result of `read_scene`."""
     if not placed:
         raise NothingSeen(f"'{objects[0].name}' has no faces to reflect: choose objects with faces.")
     positions, triangles, owners, faces, material, materials = _join(placed, len(objects))
@@ -103,7 +105,7 @@ def join_scene(placed: list[Placed], objects: list) -> DiffuseScene:
 
 
 def read_mirror(depsgraph: bpy.types.Depsgraph, obj: bpy.types.Object) -> MirrorSurface:
-    """The mirror `obj` in world space with its shading normals.
+    """Read the mirror `obj` in world space with its shading normals.
 
     Of an object that has mirror materials and others, only the faces with a mirror material reflect.
 
@@ -177,7 +179,9 @@ def _triangle_mesh(objects: list, positions, triangles, normals=None) -> Triangl
 
 
 def _join(placed: list[Placed], count: int) -> tuple:
-    """World positions, triangles, owner, triangle in its owner, material of each."""
+    """Return world positions and triangles; for each triangle its owner, its number within the owner and its material;
+    and the list of materials.
+    """
     positions, triangles, owners, faces, material = [], [], [], [], []
     materials, index_of = [], {}
     counted = np.zeros(count, dtype=np.int64)
@@ -212,7 +216,9 @@ def _in_one(parts: list) -> np.ndarray:
 
 
 def _counted_on(owners: np.ndarray, counted: np.ndarray, count: int) -> np.ndarray:
-    """How many triangles each owner (k,) has before each of its places; `counted`, of every owner, is counted on."""
+    """Return for each placement, with owners (k,), the number of triangles of the same owner before it. Each placement
+    has `count` triangles. Add them to `counted`, the number per owner, in place.
+    """
     order = np.argsort(owners, kind="stable")
     before = np.empty(len(owners), dtype=np.int64)
     before[order] = np.arange(len(owners)) - np.searchsorted(owners[order], owners[order])
@@ -222,8 +228,9 @@ def _counted_on(owners: np.ndarray, counted: np.ndarray, count: int) -> np.ndarr
 
 
 def _repeated(indices: np.ndarray, order: np.ndarray, stride: int, start: int) -> np.ndarray:
-    """Indices (m, 3) for each of k places, as (k m, 3), counted on by `stride` from place to place, in the `order`
-    (k, 3) of corners: a transform that turns space inside out turns its faces over."""
+    """Repeat the triangles `indices` (m, 3) for k placements, as (k m, 3). Each placement adds `stride` to the vertex
+    indices. `order` (k, 3) is the order of corners, reversed for placements that mirror the mesh.
+    """
     shift = start + stride * np.arange(len(order), dtype=np.int64)
     if (order == order[0]).all():
         return (indices[:, order[0]].astype(np.int64) + shift[:, None, None]).reshape(-1, 3)

@@ -1,5 +1,6 @@
-"""Values at the triangles of a scene, worked out where they are asked for: a mesh that stands in a thousand places is
-kept once, and few of its triangles are seen."""
+"""Compute values at the triangles of a scene on demand. A mesh with a thousand placements is stored once, and only few
+of its triangles are seen.
+"""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -11,12 +12,14 @@ import numpy as np
 from ....core import breathe
 from .read_meshes import LocalMesh, Placed
 
-AT_ONCE = 1 << 17  # triangles: what is worked out on the way takes little memory beside the values themselves
+AT_ONCE = 1 << 17  # triangles per chunk, to limit the memory of intermediate results
 
 
 @dataclass(frozen=True)
 class Part:
-    """Triangles of a scene that are of one mesh: its `triangle` (n,), and the number (n,) of the place of each."""
+    """Triangles of a scene that belong to one mesh: indices `triangle` (n,) into the mesh, and `place` (n,) into its
+    placements.
+    """
 
     placed: Placed
     place: np.ndarray
@@ -28,7 +31,7 @@ class Part:
 
     @cached_property
     def turned_over(self) -> np.ndarray:
-        """Which of the triangles (n,) are turned inside out where they stand; their corners are in another order."""
+        """True (n,) for triangles whose placement mirrors the mesh. The order of their corners is reversed."""
         return self.placed.turned_over[self.place]
 
     @cached_property
@@ -39,16 +42,16 @@ class Part:
 
 
 class PlacedValues:
-    """An array of values at the triangles of a scene, of which rows are worked out by indexing.
+    """Array of values at the triangles of a scene; rows are computed when they are indexed.
 
     Parameters
     ----------
     placed : list of Placed
     shape : tuple of int
-        Of one triangle's values.
+        Shape of the values of one triangle.
     kind : numpy.dtype
     values : callable
-        From a `Part` of n triangles to their values (n, *shape).
+        Function from a `Part` of n triangles to their values (n, *shape).
     """
 
     def __init__(self, placed: list[Placed], shape: tuple, kind: type, values: Callable[[Part], np.ndarray]) -> None:
@@ -80,7 +83,7 @@ class PlacedValues:
 
 
 def normals_of(placed: list[Placed]) -> PlacedValues:
-    """Corner normals (m, 3, 3) float64 in world space."""
+    """Return the corner normals (m, 3, 3) float64 in world space."""
     def values(part: Part) -> np.ndarray:
         turning = part.placed.cofactors.swapaxes(1, 2)[part.place]
         normals = np.matmul(part.mesh.normals[part.triangle].astype(np.float64), turning)
@@ -90,11 +93,11 @@ def normals_of(placed: list[Placed]) -> PlacedValues:
 
 
 def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
-    """Faces that are sharp (m,), those that are marked, sides that are sharp (m, 3), those that are marked."""
+    """Return four boolean arrays: sharp faces (m,), marked faces (m,), sharp sides (m, 3) and marked sides (m, 3)."""
     def sides(part: Part, kind: str) -> np.ndarray:
         flags = (part.mesh.lines.sharp_sides(part.triangle, part.placed.creases, part.place)
                  if kind == "sharp" else part.mesh.lines.marked_sides(part.triangle))
-        # side k leads to the next corner: of a triangle turned over, from the last corner to the one before
+        # side k leads to the next corner: mirrored triangles have their sides in reverse order
         flags[part.turned_over] = flags[part.turned_over][:, ::-1]
         return flags
 
@@ -106,12 +109,12 @@ def lines_of(placed: list[Placed]) -> tuple[PlacedValues, ...]:
 
 
 def own_places(placed: list[Placed]) -> PlacedValues:
-    """Corners (m, 3, 3) float32 in the space of the object that each triangle is of."""
+    """Return the corners (m, 3, 3) float32 of the triangles in the space of their object."""
     return PlacedValues(placed, (3, 3), np.float32, _own)
 
 
 def own_normals(placed: list[Placed]) -> PlacedValues:
-    """Corner normals (m, 3, 3) float32 in the space of the object that each triangle is of."""
+    """Return the corner normals (m, 3, 3) float32 in the space of each triangle's object."""
     def values(part: Part) -> np.ndarray:
         normals = part.mesh.normals[part.triangle].astype(np.float32)
         normals[part.turned_over] = normals[part.turned_over][:, [0, 2, 1]]
@@ -120,10 +123,10 @@ def own_normals(placed: list[Placed]) -> PlacedValues:
 
 
 def generated_places(placed: list[Placed]) -> PlacedValues:
-    """The same in the box that Generated coordinates are counted in, which goes from 0 to 1."""
+    """Return the corners (m, 3, 3) float32 in Generated coordinates, which run from 0 to 1 in the texture space box."""
     def values(part: Part) -> np.ndarray:
         middle, half = part.mesh.texture_space
-        # as Cycles has it: in the middle where the box is flat
+        # like Cycles, use the middle where the box is flat
         share = np.divide(0.5, half, out=np.zeros_like(half), where=half != 0.0)
         return (_own(part) - middle) * share + 0.5
     return PlacedValues(placed, (3, 3), np.float32, values)

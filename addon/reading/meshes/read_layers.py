@@ -1,4 +1,4 @@
-"""What the corners of a Blender mesh show, as arrays: UV maps, colours, and other attributes that materials ask for."""
+"""Read the UV maps, the colours and other attributes that materials use, as arrays at face corners."""
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -8,15 +8,15 @@ import numpy as np
 
 from ..materials import asked_attributes
 
-# attributes that Blender itself makes something of, and only where they have the type that it expects
+# attributes with a meaning for Blender, and a fixed type
 BLENDERS_OWN = {"position", "material_index", "sharp_face", "sharp_edge", "custom_normal", "freestyle_edge",
                 "freestyle_face", "crease_edge", "crease_vert", "bevel_weight_edge", "bevel_weight_vert"}
-# where the values of an attribute lie and how many numbers they are, by its type
+# name of the value property, number of components and dtype, by attribute type
 FIELDS = {"FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "INT8": ("value", 1, np.int8),
           "BOOLEAN": ("value", 1, bool), "FLOAT2": ("vector", 2, np.float32), "FLOAT_VECTOR": ("vector", 3, np.float32),
           "FLOAT_COLOR": ("color", 4, np.float32), "BYTE_COLOR": ("color", 4, np.float32)}
-DOMAINS = {"POINT", "CORNER", "FACE"}  # of edges engines show nothing
-# as what they are carried: engines interpolate numbers of any type
+DOMAINS = {"POINT", "CORNER", "FACE"}  # engines do not show edge attributes
+# types to store: engines interpolate integers and booleans as floats
 CARRIED = {"INT": "FLOAT", "INT8": "FLOAT", "BOOLEAN": "FLOAT"}
 
 
@@ -45,7 +45,7 @@ NO_LAYERS = Layers({}, {}, {}, "", "")
 
 
 def read_layers(mesh: bpy.types.Mesh, materials: tuple) -> Layers:
-    """All UV maps and colours of a mesh, and what else its materials ask for."""
+    """Return all UV maps and colours of a mesh, and the other attributes that `materials` read."""
     vertex = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.attributes[".corner_vert"].data.foreach_get("value", vertex)
     uv_maps = {layer.name: _of_corners(mesh.attributes[layer.name], mesh, vertex) for layer in mesh.uv_layers}
@@ -66,8 +66,9 @@ def read_layers(mesh: bpy.types.Mesh, materials: tuple) -> Layers:
 
 
 def _of_corners(attribute: bpy.types.Attribute, mesh: bpy.types.Mesh, vertex: np.ndarray) -> np.ndarray:
-    """Values (corners, c) float32 of an attribute of any domain, zero where one is no finite number, which would spoil
-    all that is interpolated from it."""
+    """Return the values (corners, c) float32 of an attribute of any domain. Values that are not finite become zero,
+    since they would spoil interpolated values.
+    """
     name, width, kind = FIELDS[attribute.data_type]
     values = np.empty((len(attribute.data), width), dtype=kind)
     attribute.data.foreach_get(name, values.reshape(-1))

@@ -1,4 +1,4 @@
-"""Evaluated Blender meshes -> arrays, in each object's own space, with the places where they stand."""
+"""Read evaluated Blender meshes as arrays in object space, with their placements."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -17,7 +17,7 @@ from .read_layers import NO_LAYERS, read_layers
 from .shading_normals import bent_faces, corner_normals, with_bent_faces
 from .source_lines import SourceLines
 
-FARTHEST = 1e17  # units: squares of what lies somewhat further must still be numbers of single precision
+FARTHEST = 1e17  # scene units; the squares of somewhat larger coordinates overflow single precision
 
 
 @dataclass(frozen=True)
@@ -65,10 +65,22 @@ class LocalMesh:
 
 @dataclass(frozen=True)
 class Placed:
-    """A mesh and where it stands: `owners` (k,) are indices of participants, `matrices` (k, 4, 4) float64 to world;
-    `instances` (k,) tells where it is not the participant's own, and `told` (k, 6) float64 what Object Info tells
-    there: a number from 0 to 1 that is random by the instance, its object's index and its colour; `answers` (k) are
-    those of `InstanceAnswers`, where they were asked for."""
+    """A mesh and its k placements.
+
+    Attributes
+    ----------
+    mesh : LocalMesh
+    owners : (k,) int
+        Index of the participant of each placement.
+    matrices : (k, 4, 4) float64
+        Transforms to world space.
+    instances : (k,) bool
+        True for instances, False for the participant's own mesh.
+    told : (k, 6) float64
+        Values of Object Info: random number from 0 to 1, object index and RGBA colour.
+    answers : tuple of dict
+        Result of `InstanceAnswers` for each placement, if it was requested.
+    """
 
     mesh: LocalMesh
     owners: np.ndarray
@@ -79,44 +91,53 @@ class Placed:
 
     @cached_property
     def turned_over(self) -> np.ndarray:
-        """Which of the places (k,) turn the mesh inside out."""
+        """True (k,) for placements that mirror the mesh."""
         return np.linalg.det(self.matrices[:, :3, :3]) < 0.0
 
     @cached_property
     def cofactors(self) -> np.ndarray:
-        """What takes normals to world space, (k, 3, 3): also where a scale is zero."""
+        """Matrices (k, 3, 3) that transform normals to world space, also where a scale is zero."""
         linear = self.matrices[:, :3, :3]
         across = np.stack([np.cross(linear[:, (i + 1) % 3], linear[:, (i + 2) % 3]) for i in range(3)], axis=1)
         return across * np.where(self.turned_over, -1.0, 1.0)[:, None, None]
 
     @cached_property
     def creases(self) -> Creases:
-        """The creases of the mesh in its places; a mirror has none."""
+        """The creases of the mesh in its placements; not for mirrors."""
         assert self.mesh.lines is not None
         return self.mesh.lines.creases(self.cofactors)
 
 
 def drawn_meshes(depsgraph: bpy.types.Depsgraph) -> Iterator[bpy.types.DepsgraphObjectInstance]:
-    """Every place where something is drawn as a mesh. Curves, text and metaballs come twice: as what they are, and as
-    instances of the meshes that they become, which are what engines draw."""
+    """Yield every instance that is drawn as a mesh. Curves, text and metaballs appear twice: as themselves, and as
+    instances of the generated meshes, which are what engines draw.
+    """
     return (instance for instance in depsgraph.object_instances
             if instance.object.type == "MESH" and instance.show_self)
 
 
 def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, known: Callable | None = None,
                 unmirrored: bool = False, answered: bool = False) -> list[Placed]:
-    """Each distinct mesh of `objects`, modifiers applied, with every place where it or an instance of it stands.
+    """Read each distinct mesh of `objects`, with modifiers applied, and all placements of the mesh and its instances.
 
-    Instances count as their instancer: an object that instances others owns them; those that are hidden from glossy
-    rays are not read where mirrors show `objects`, but where these are a `mirror` or `unmirrored`. Of a `mirror`
-    only its shape is read, and its normals must be numbers. What has been read before may be `known`: asked for with
-    the name of a mesh, the `session_uid` of all that it depends on, and how to read it. What materials ask of each
-    place is `answered` where that is said.
+    Parameters
+    ----------
+    objects : list of bpy.types.Object
+        Instances belong to their instancer.
+    mirror : bool
+        Read only the shape. Normals must be finite.
+    known : callable or None
+        Cache of meshes. It is called with the name of a mesh, the `session_uid` of all data that it depends on, and a
+        function that reads it.
+    unmirrored : bool
+        Include instances that are hidden from glossy rays. Mirrors always include them.
+    answered : bool
+        Evaluate the attributes that materials read at each placement, see `InstanceAnswers`.
 
     Raises
     ------
     ReflectionError
-        Where a coordinate, a normal or a transform is not a finite number, or too large for Blender.
+        If a coordinate, a normal or a transform is not a finite number, or is too large for Blender.
     """
     owner_of = {obj: index for index, obj in enumerate(objects)}
     meshes, owners, matrices, instances, told, replies = {}, {}, {}, {}, {}, {}
@@ -156,7 +177,8 @@ def read_meshes(depsgraph: bpy.types.Depsgraph, objects: list, mirror: bool, kno
 
 
 def _check(mesh: LocalMesh, matrix: np.ndarray, name: str) -> None:
-    """Raise what `read_meshes` raises where places (k, 4, 4) of a mesh are no numbers, or too large."""
+    """Raise `ReflectionError` if the transforms `matrix` (k, 4, 4) of a mesh are not finite, or place it too far away.
+    """
     if not np.isfinite(matrix).all():
         raise ReflectionError(f"'{name}' has a transform that is not a finite number: "
                               "clear its location, rotation and scale.")
@@ -168,8 +190,10 @@ def _check(mesh: LocalMesh, matrix: np.ndarray, name: str) -> None:
 
 def _name(instance: bpy.types.DepsgraphObjectInstance, materials: tuple, mirror: bool,
           asked: dict[tuple, frozenset]) -> tuple[tuple, frozenset]:
-    """What tells the mesh of an instance from all others of its depsgraph while that tells no change of any whose
-    `session_uid` is returned beside it; `asked` are the attributes that each tuple of materials reads."""
+    """Return a cache key of the mesh of an instance, and the `session_uid` of all data that it depends on. The key is
+    valid while the depsgraph reports no change of these. `asked` caches the attributes that each tuple of materials
+    reads.
+    """
     evaluated = instance.object
     original = evaluated.original
     owners = [original, instance.parent.original] if instance.is_instance else [original]
@@ -188,7 +212,7 @@ def takes_part(obj: bpy.types.Object) -> bool:
 
 
 def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | None:
-    """The mesh of an evaluated object; None where it has no faces."""
+    """Read the mesh of an evaluated object; return None if it has no faces."""
     mesh = obj.to_mesh()
     if mesh is None:
         return None
@@ -220,14 +244,16 @@ def _read(obj: bpy.types.Object, materials: tuple, mirror: bool) -> LocalMesh | 
 
 
 def _values(data, name: str, shape, dtype) -> np.ndarray:
-    """All values of one property of a collection, through the buffer that has exactly its type and length."""
+    """Return all values of one property of a collection. The array has the exact type and length, so that Blender
+    copies one block.
+    """
     array = np.empty(shape, dtype=dtype)
     data.foreach_get(name, array.reshape(-1))
     return array
 
 
 def _triangulation(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Face corners (m, 3) and polygon (m,) of each triangle."""
+    """Return the face corners (m, 3) and the polygon (m,) of each triangle."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
         # triangles already: their corners lie in order
         face = np.arange(len(mesh.polygons), dtype=np.int32)

@@ -1,4 +1,4 @@
-"""The normals by which Cycles shades a mesh."""
+"""Compute the normals that Cycles uses for shading a mesh."""
 from __future__ import annotations
 
 import bpy
@@ -6,13 +6,15 @@ import numpy as np
 
 from ... import compat
 
-BENT = 1e-6  # between unit normals: what differs by less is rounding
+BENT = 1e-6  # smaller differences of unit normals are rounding errors
 APART = 1e-9  # radians: far above rounding, and far below what a picture shows
-ASKEW = (0.31, 0.57, 0.76)  # no axis of anything
+ASKEW = (0.31, 0.57, 0.76)  # a direction that is parallel to no axis
 
 
 def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Of face corners, (n, 3) float32: smooth, flat or custom; those of a flat face are that face's."""
+    """Return the shading normals of the face corners, (n, 3) float32: smooth, flat or custom. Corners of a flat face
+    have the normal of the face.
+    """
     normals = _vectors(mesh.corner_normals)
     if compat.smooth_faces_take_vertex_normals(mesh):
         smooth = np.repeat(_is_smooth(mesh), _sides(mesh))
@@ -23,8 +25,9 @@ def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def bent_faces(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Which faces Cycles shades by the normals of their triangles, be these of one plane or not: flat ones, but where
-    it takes the normals of corners."""
+    """Return True (p,) for flat faces with more than three sides. Cycles shades these with the normals of their
+    triangles, which differ if the face is not planar. False for faces where Cycles uses the normals of corners.
+    """
     if mesh.normals_domain == "FACE":
         return _sides(mesh) > 3
     if compat.smooth_faces_take_vertex_normals(mesh):
@@ -33,8 +36,9 @@ def bent_faces(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def with_bent_faces(normals: np.ndarray, corners: np.ndarray, bent: np.ndarray) -> np.ndarray:
-    """Normals (m, 3, 3) of triangles whose corners lie at (m, 3, 3), those of some that are `bent` (m,) by themselves,
-    where they do not lie in the plane of their face."""
+    """Return the normals (m, 3, 3) with those of `bent` (m,) triangles replaced by the triangle's own normal if it
+    differs from the face's. `corners` (m, 3, 3) are the positions of the triangles' corners.
+    """
     some = np.flatnonzero(bent)
     place = corners[some].astype(np.float64)
     own = np.cross(place[:, 1] - place[:, 0], place[:, 2] - place[:, 0])
@@ -46,10 +50,11 @@ def with_bent_faces(normals: np.ndarray, corners: np.ndarray, bent: np.ndarray) 
 
 
 def told_apart(normals: np.ndarray, material: np.ndarray) -> np.ndarray:
-    """Normals (m, 3, 3) of a mirror's triangles that agree in no corner in which several materials (m,) meet.
+    """Return normals (m, 3, 3) of a mirror's triangles, changed so that triangles of different materials (m,) never
+    agree in a normal.
 
-    A face of a result lies over several triangles of the mirror where their normals agree, and else in each of them by
-    itself: so it lies on one material.
+    A face of a result extends over several triangles of the mirror where their normals agree, and is split where they
+    do not. So each face lies on one material.
     """
     if not len(material) or (material == material[0]).all():
         return normals

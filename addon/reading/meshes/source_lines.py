@@ -1,4 +1,4 @@
-"""The lines of a mesh, which its reflection must show as lines: sharp edges, creases, edges marked for Freestyle."""
+"""The lines of a mesh that its reflection must also show: sharp edges, creases, and edges marked for Freestyle."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,22 +12,22 @@ from .creases import Creases
 
 @dataclass(frozen=True)
 class SourceLines:
-    """The edges (e) of a mesh, its faces (p), and where both are in its triangles (m).
+    """The e edges and p faces of a mesh, and their indices at its m triangles.
 
     Attributes
     ----------
     side : (m, 3) int32
-        The edge from each corner of a triangle to the next, -1 where a triangle cuts through a face.
+        The edge from each corner of a triangle to the next, -1 for diagonals inside a face.
     face : (m,) int32
         The face of each triangle.
     sharp_edges, marked_edges : (e,) bool
     sharp_faces, marked_faces : (p,) bool
     meeting : (2, c) int32
-        The faces on both sides of an edge that has two.
+        The faces on both sides of each edge that has two.
     meeting_of : (e,) int32
-        Where each edge is among those, -1 where it is not.
+        Column of each edge in `meeting`, -1 for edges without two faces.
     normals : (p, 3) float32
-        Of the faces.
+        Normals of the faces.
     """
 
     side: np.ndarray
@@ -42,7 +42,7 @@ class SourceLines:
 
     @classmethod
     def of(cls, mesh: bpy.types.Mesh, corners: np.ndarray, face: np.ndarray) -> SourceLines:
-        """The lines of a mesh with triangles of the face `corners` (m, 3) in the faces `face` (m,)."""
+        """Read the lines of a mesh. Its m triangles have the face `corners` (m, 3) and lie in the faces `face` (m,)."""
         edges, faces = len(mesh.edges), len(mesh.polygons)
         edge = np.empty(len(mesh.loops), dtype=np.int32)
         mesh.attributes[".corner_edge"].data.foreach_get("value", edge)
@@ -52,7 +52,7 @@ class SourceLines:
         following = np.arange(1, len(edge) + 1, dtype=np.int32)
         following[start + total - 1] = start
         side = np.where(following[corners] == np.roll(corners, -1, axis=1), edge[corners], -1)
-        # of the edges with two faces, the first and the last in the order of corners
+        # find the first and the last face of each edge, in the order of corners, for edges with two faces
         owner = np.repeat(np.arange(faces, dtype=np.int32), total)
         meeting = np.zeros((2, edges), dtype=np.int32)
         meeting[0, edge[::-1]], meeting[1, edge] = owner[::-1], owner
@@ -66,22 +66,24 @@ class SourceLines:
                    meeting[:, two], meeting_of, normals)
 
     def creases(self, cofactors: np.ndarray) -> Creases:
-        """The creases where the mesh stands in places with the `cofactors` (k, 3, 3) that take its normals there."""
+        """Return the creases for placements whose matrices `cofactors` (k, 3, 3) transform normals to world space."""
         return Creases.of(self.meeting, self.meeting_of, self.normals, cofactors)
 
     def sharp_sides(self, triangle: np.ndarray, creases: Creases, place: np.ndarray) -> np.ndarray:
-        """Which sides (n, 3) of triangles (n,) are sharp or creased, where the mesh stands in the places (n,)."""
+        """Return True (n, 3) for sides of `triangle` (n,) that are sharp edges, or creases in the placements `place`
+        (n,).
+        """
         side = self.side[triangle]
         return (self.sharp_edges[side] | creases.among(side, place)) & (side >= 0)
 
     def marked_sides(self, triangle: np.ndarray) -> np.ndarray:
-        """Which sides (n, 3) of triangles (n,) are marked."""
+        """Return True (n, 3) for sides of `triangle` (n,) that are marked for Freestyle."""
         side = self.side[triangle]
         return self.marked_edges[side] & (side >= 0)
 
 
 def _flags(mesh: bpy.types.Mesh, name: str, domain: str, count: int) -> np.ndarray:
-    """A boolean attribute; nowhere true where the mesh has none."""
+    """Return a boolean attribute (count,); all False if the mesh does not have it."""
     values = np.zeros(count, dtype=bool)
     attribute = mesh.attributes.get(name)
     if attribute is not None and attribute.data_type == "BOOLEAN" and attribute.domain == domain:

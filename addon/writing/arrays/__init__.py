@@ -1,4 +1,4 @@
-"""What is to be written into meshes, as arrays in Blender's own types: faces, points, edges, layers and their sizes."""
+"""Arrays in Blender's own types that are written into meshes: faces, points, edges and layers, and their sizes."""
 from .attribute import Attribute
 from .later_mirrors import ARRIVAL, LATER_COSINE, LATER_MATERIAL, NORMAL
 from .light_layer import UV_MAP, images_of, light_layer, light_points

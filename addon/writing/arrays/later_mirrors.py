@@ -1,4 +1,4 @@
-"""What results know of the mirrors that they are seen by after the first one, and of how these meet the light."""
+"""Attributes for reflections of reflections: the mirrors after the first one, and their angles of incidence."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -21,8 +21,9 @@ ARRIVAL = "arrival_direction"
 
 def later_mirrors(result: ReflectionMesh, surfaces: Sequence[MirrorSurface],
                   view: View) -> tuple[tuple[Attribute, ...], list]:
-    """The attributes of a result with faces that are seen by several of the mirrors `surfaces`, and the materials that
-    they number; none where no face is."""
+    """Return the attributes for faces that are seen by several of the mirrors `surfaces`, and the materials that the
+    attributes number. Return nothing if no face is seen by more than one mirror.
+    """
     later = result.later_mirrors
     if later is None or not (later >= 0).any():
         return (), []
@@ -45,7 +46,7 @@ def _arrivals(result: ReflectionMesh, view: View) -> np.ndarray:
     """Return the unit directions (n, 3) of the eye's rays after the last mirror of each vertex."""
     ahead = view.directions(result.mirror_position)
     ahead = ahead / np.linalg.norm(ahead, axis=1)[:, None]
-    # of mirrors that a vertex is not seen by the normal is zero, and turns nothing
+    # the normal is zero for mirrors that do not show a vertex, and reflects nothing
     for normal in np.moveaxis(result.mirror_normals, 1, 0):
         ahead = ahead - 2.0 * np.einsum("ni,ni->n", ahead, normal)[:, None] * normal
     return ahead

@@ -34,7 +34,9 @@ def light_points(mesh: bpy.types.Mesh) -> bpy.types.Attribute:
 
 
 def images_of(material: bpy.types.Material) -> list[bpy.types.Image]:
-    """The images that a material of light shows, the exact one first; fewer where somebody has changed that."""
+    """Return the images that a material of light shows, the exact one first; fewer if somebody has changed the
+    material.
+    """
     nodes = material.node_tree.nodes if material.node_tree else ()
     # nodes of a mirror's own may show images of the user's
     return [node.image for node in nodes

@@ -1,4 +1,4 @@
-"""What is to be written into a mesh, as arrays in Blender's own types, and that of a reflection with faces."""
+"""Everything that is written into a mesh, as arrays in Blender's own types; here for a reflection with faces."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -15,14 +15,14 @@ from .mesh_edges import Edges
 from .shown_attributes import shown_attributes
 from .single_precision import in_single_precision
 
-# a Blender mesh holds no more
+# limit of a Blender mesh
 MOST_UV_MAPS = 8
-UP = np.array((0.0, 0.0, 1.0))  # the normal of what has none
+UP = np.array((0.0, 0.0, 1.0))  # normal of faces that have none
 
 
 @dataclass(frozen=True)
 class Lines:
-    """Which edges (e,) are sharp, and which are marked for Freestyle; faces (m,) marked for Freestyle."""
+    """Edges (e,) that are sharp, edges (e,) marked for Freestyle, and faces (m,) marked for Freestyle; all bool."""
 
     sharp_edges: np.ndarray
     marked_edges: np.ndarray
@@ -62,29 +62,29 @@ class MeshArrays:
     later_materials: list = field(default_factory=list)
 
     def seen_in(self, materials: list) -> MeshArrays:
-        """The same with no more attributes than `materials` read."""
+        """Return these arrays with only the attributes that `materials` read."""
         return replace(self, attributes=shown_attributes(self.attributes, materials))
 
     @property
     def uv_maps(self) -> list[str]:
-        """Names of the UV maps, which loose points have as well."""
+        """Names of the UV maps. Loose points have UV maps as well."""
         return [attribute.name for attribute in self.attributes if attribute.kind == "FLOAT2"]
 
 
 def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View,
                 mirrors: Sequence[MirrorSurface] = ()) -> MeshArrays:
-    """The arrays of a result with faces.
+    """Return the arrays of a result with faces.
 
     Parameters
     ----------
     scene : DiffuseScene
-        What was reflected.
+        The reflected scene.
     surface : MirrorSurface
-        What it was reflected in.
+        The mirror.
     view : View
-        Who sees it.
+        The view for which the result was made.
     mirrors : sequence of MirrorSurface
-        All that it may be seen by after that one, in the order in which it counts them; none at a depth of one.
+        All mirrors that may follow the first one, in the order of the result's indices; empty for a depth of one.
     """
     result, origin = vertices_written(result, surface.mesh, view)
     breathe()
@@ -114,25 +114,26 @@ def mesh_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurf
 
 
 def vertices_written(result: ReflectionMesh, mirror: TriangleMesh, view: View) -> tuple[ReflectionMesh, np.ndarray]:
-    """A result with faces as `mesh_arrays` writes it: vertex by vertex, and relative to which place (3,)."""
+    """Round a result with faces as `mesh_arrays` writes it. Return the result and its origin (3,) in world space."""
     origin = origin_of(mirror)
     return in_single_precision(result, origin, view), origin
 
 
 def _normals(result: ReflectionMesh, scene: DiffuseScene) -> tuple[Attribute, ...]:
-    """The shading normals of the sources as the mirrors show them."""
+    """Return the shading normals of the sources, reflected by the mirrors."""
     normals = result.image_normals(scene.normals)
     normals[(normals[..., 0] == 0.0) & (normals[..., 1] == 0.0) & (normals[..., 2] == 0.0)] = UP
     return (Attribute(compat.normals_attribute(), "FLOAT_VECTOR", "CORNER", normals.astype(np.float32)),)
 
 
 def _lines(result: ReflectionMesh, scene: DiffuseScene, edges: Edges) -> Lines:
-    """What are images of lines. Freestyle has more of them marked: sharp edges, since it knows none and finds no crease
-    between faces that both lie on the mirror, and where the surface ends, since it takes gaps for such borders too
-    where it leaves out slivers."""
+    """Return the edges and faces that are images of lines. Freestyle needs two more kinds of marked edges. It does not
+    know sharp edges and finds no crease between faces on the mirror, so sharp edges are marked. It takes gaps for
+    borders, so the borders of the surface are marked too.
+    """
     side = result.source_sides
     on_side = side >= 0
-    # of each face's source all sides at once
+    # all sides of each face's source at once
     shown = np.nonzero(on_side)[0], side[on_side]
     sharp, marked = np.zeros(side.shape, dtype=bool), np.zeros(side.shape, dtype=bool)
     sharp[on_side] = scene.sharp_side[result.source_face][shown]
@@ -146,13 +147,13 @@ def _lines(result: ReflectionMesh, scene: DiffuseScene, edges: Edges) -> Lines:
 
 
 def origin_of(mirror: TriangleMesh) -> np.ndarray:
-    """The middle of the mirror's box, rounded as Blender stores an object's location."""
+    """Return the middle of the mirror's box, rounded to single precision like an object's location."""
     corners = mirror.positions[mirror.triangles].reshape(-1, 3)
     return (0.5 * (corners.min(axis=0) + corners.max(axis=0))).astype(np.float32).astype(np.float64)
 
 
 def point_attributes(result: ReflectionMesh) -> tuple[Attribute, ...]:
-    """What the points of any result know."""
+    """Return the point attributes that all results have."""
     return (Attribute("reflected_position", "FLOAT_VECTOR", "POINT", result.reflected_position.astype(np.float32)),
             Attribute("mirror_position", "FLOAT_VECTOR", "POINT", result.mirror_position.astype(np.float32)),
             Attribute("path_length", "FLOAT", "POINT", result.path_length.astype(np.float32)),
@@ -161,7 +162,7 @@ def point_attributes(result: ReflectionMesh) -> tuple[Attribute, ...]:
 
 def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
                  at: Callable[[np.ndarray], np.ndarray]) -> tuple[Attribute, ...]:
-    """UV maps, colours and other attributes of what is shown, but for those with the name of one of the result's own.
+    """Return the UV maps, colours and other attributes of the sources, without names that the result uses itself.
 
     Parameters
     ----------
@@ -169,7 +170,7 @@ def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
         From values (m, 3, c) at the corners of the scene's triangles to those of the result.
     """
     taken = {attribute.name for attribute in own}
-    # the active ones must not fall to Blender's limit
+    # put the active layers first, so that Blender's limit does not cut them off
     uv_maps = [entry for entry in in_order(scene.uv_maps, scene.active_uv) if entry[0] not in taken][:MOST_UV_MAPS]
     taken.update(name for name, _ in uv_maps)
     colours = [entry for entry in in_order(scene.colours, scene.active_colour) if entry[0] not in taken]
@@ -180,5 +181,5 @@ def shown_layers(scene: DiffuseScene, own: tuple[Attribute, ...], domain: str,
 
 
 def in_order(entries: dict, name: str) -> list:
-    """The entries as pairs, the one of that name first."""
+    """Return the entries as pairs, with the entry called `name` first."""
     return sorted(entries.items(), key=lambda entry: entry[0] != name)

@@ -13,7 +13,7 @@ DISC_SCALE = "disc_scale"
 
 
 def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
-    """The arrays of a result without faces; parameters as for `mesh_arrays`."""
+    """Return the arrays of a result without faces; parameters as for `mesh_arrays`."""
     discs = result.discs
     corner = _corner_of_vertex(scene)[discs.source_vertex]
     source, at = corner // 3, corner % 3
@@ -34,16 +34,18 @@ def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSur
 
 
 def _corner_of_vertex(scene: DiffuseScene) -> np.ndarray:
-    """A corner of the scene's triangles, 3 triangle + corner, for each vertex: the first one."""
+    """Return for each vertex the first corner of the scene's triangles that has it, as 3 * triangle + corner."""
     triangles = scene.mesh.triangles
     table = np.zeros(len(scene.mesh.positions), dtype=np.int64)
-    # of several assignments to one vertex the last stays
+    # the last assignment to an index wins, so assign in reverse order
     table[triangles.ravel()[::-1]] = np.arange(triangles.size)[::-1]
     return table
 
 
 def _placed_discs(axes: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Quaternions (n, 4) that turn X and Y to the half axes (n, 2, 3) and Z to the eye, and the half axes' lengths."""
+    """Return quaternions (n, 4) that rotate X and Y to the half axes (n, 2, 3) and Z towards the eye, and scales (n, 3)
+    with the lengths of the half axes.
+    """
     length = np.linalg.norm(axes, axis=2)
     x, y = np.moveaxis(axes / np.maximum(length, 1e-300)[:, :, None], 1, 0)
     y = np.where((np.cross(x, y) * directions).sum(axis=1, keepdims=True) > 0.0, -y, y)

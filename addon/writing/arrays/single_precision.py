@@ -1,8 +1,7 @@
-"""What single precision, in which Blender stores places, makes of a result.
+"""Round the positions of a result to single precision, as Blender stores them, without flipped or empty faces.
 
-Vertices that it cannot tell apart are one, since a face between them has no area and no side; and slivers, which the
-rounding of their corners turns over, are turned back. Wherever one of these lay, Line Art and Freestyle would see the
-surface turn over, and draw a line.
+Vertices that become equal are merged, since a face between them has no area. Slivers that rounding flips are flipped
+back. Line Art and Freestyle would otherwise see flipped faces and draw lines there.
 """
 from __future__ import annotations
 
@@ -13,13 +12,13 @@ import numpy as np
 from ....core import ReflectionMesh, View, breathe
 from ....core.geometry import distinct
 
-SPACING = 2.0 ** -22  # of a coordinate: numbers that differ by less are next to each other, or next but one
-SLIVER = 8.0 * SPACING  # of a coordinate: what is no wider has been a line
-THIN = np.float32(64.0 * SPACING)  # of a coordinate: what is wider keeps its side
+SPACING = 2.0 ** -22  # relative to a coordinate; closer numbers are (next) neighbours in single precision
+SLIVER = 8.0 * SPACING  # relative to a coordinate; narrower triangles count as lines
+THIN = np.float32(64.0 * SPACING)  # relative to a coordinate; wider triangles are never flipped by rounding
 
 
 def in_single_precision(result: ReflectionMesh, origin: np.ndarray, view: View) -> ReflectionMesh:
-    """A result with faces whose places will be rounded relative to `origin` (3,), as the `view` is to see it."""
+    """Return a result with faces whose positions will be rounded relative to `origin` (3,), seen from `view`."""
     exact = result.positions - origin
     rounded = exact.astype(np.float32)
     vertex = _together(rounded, result.triangles)
@@ -44,13 +43,15 @@ def in_single_precision(result: ReflectionMesh, origin: np.ndarray, view: View) 
 
 
 def _away(places: np.ndarray, ahead: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Which triangles show their backs, by their normals as Blender works them out, in the precision of `places`."""
+    """Return True (m,) for triangles that face away from the eye, by their normals as Blender computes them, in the
+    precision of `places` (n, 3). `ahead` (n, 3) are the view directions at the vertices.
+    """
     a, b, c = np.moveaxis(places[triangles], 1, 0)
     return (np.cross(a - b, b - c) * ahead[triangles].sum(axis=1)).sum(axis=1) > 0.0
 
 
 def _thin(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Triangles, in order, so thin that rounding may turn them over."""
+    """Return the sorted indices of triangles that are so thin that rounding may flip them."""
     places = np.ascontiguousarray(places.T)
     a, b, c = (places[:, corner] for corner in triangles.T)
     one, other = b - a, c - a
@@ -60,13 +61,14 @@ def _thin(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _largest(rows: np.ndarray) -> np.ndarray:
-    """The largest of three rows (3, n)."""
+    """Return the largest of three rows (3, n), as (n,)."""
     return np.maximum(np.maximum(rows[0], rows[1]), rows[2])
 
 
 def _together(places: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
-    """Of each vertex (n,) at `places` (n, 3), the one that stands for it and for all that lie too near to it; None
-    where all stand for themselves."""
+    """Return for each vertex (n,) at `places` (n, 3) the vertex into which it is merged because they are too close.
+    Return None if no vertices are merged.
+    """
     places = np.ascontiguousarray(places.T)
     room = np.float32(SPACING) * _largest(np.abs(places))
     pairs = []
@@ -86,14 +88,14 @@ def _together(places: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
 
 
 def _with_area(triangles: np.ndarray, vertex: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Which triangles, on vertices that may stand for others, have three of them.
+    """Return the indices of `triangles` that still have three distinct vertices after merging by `vertex` (n,).
 
-    Of two on the same vertices the first is one, as the front of a leaf is whose back is too near, but none of two
-    slivers, which closed a gap that is closed without them.
+    Of several triangles on the same vertices, keep the first, e.g. the front of a leaf whose back is too close. Keep
+    none if they are slivers: these filled a gap that is closed without them.
     """
     named = np.sort(triangles, axis=1)
     kept = (named[:, 1:] != named[:, :-1]).all(axis=1)
-    # only where vertices became one, triangles may have
+    # only triangles with merged vertices may coincide
     near = np.flatnonzero(kept & (np.bincount(vertex, minlength=len(vertex)) > 1)[named].any(axis=1))
     _, first, count = np.unique(named[near], axis=0, return_index=True, return_counts=True)
     a, b, c = np.moveaxis(places[triangles[near[first]]].astype(np.float64), 1, 0)

@@ -19,7 +19,7 @@ def project_by(build: ShaderBuilder, picture: bpy.types.Node, normal: bpy.types.
     at, parts = build.separated(given(picture.inputs["Vector"])), build.separated(normal)
     shares = _shares(build, normal, max(picture.projection_blend, STEP))
     sides = []
-    # which coordinates a side shows, and whether it is turned over where the normal points along its axis or against
+    # coordinates that each side shows, and the sign of the normal on this axis for which it is mirrored
     for axis, (across, up, turned) in enumerate(((1, 2, "LESS_THAN"), (0, 2, "GREATER_THAN"), (1, 0, "GREATER_THAN"))):
         over = build.calculated(turned, parts[axis], 0.0)
         way = build.calculated("SUBTRACT", 1.0, build.calculated("MULTIPLY", over, 2.0))
@@ -44,8 +44,9 @@ def _side(build: ShaderBuilder, picture: bpy.types.Node, place: bpy.types.NodeSo
 
 
 def _shares(build: ShaderBuilder, normal: bpy.types.NodeSocket, blend: float) -> tuple:
-    """How much each of the three sides shows: of two, one goes over into the other about where their parts of the
-    normal are equal; a side shows as much as its smaller share of two pairs."""
+    """Return the weights of the three sides. Two sides blend where their components of the normal are about equal. The
+    weight of a side is the smaller one of its two pairs.
+    """
     size = build.vector("ABSOLUTE", normal)
     x, y, z = build.separated(size)
     share = build.vector("DIVIDE", size, build.vector("ADD", size, build.combined(y, z, x)))

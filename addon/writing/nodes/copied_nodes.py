@@ -6,11 +6,11 @@ from collections.abc import Iterable
 import bpy
 
 STRUCTURES = ("image_user", "texture_mapping", "color_mapping")
-OWN = {"parent", "select", "show_options", "name", "location_absolute"}  # where a node stands in its tree
+OWN = {"parent", "select", "show_options", "name", "location_absolute"}  # properties of a node's place in its tree
 
 
 def copied(nodes: Iterable[bpy.types.Node], tree: bpy.types.NodeTree) -> dict[bpy.types.Node, bpy.types.Node]:
-    """Copies of nodes in `tree`, linked among each other as these are, by the nodes."""
+    """Copy nodes into `tree` with the links among them. Return the copies by the original nodes."""
     made = {node: _copy(node, tree) for node in nodes}
     for node, copy in made.items():
         for socket, new in zip(node.inputs, copy.inputs):

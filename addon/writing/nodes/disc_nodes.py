@@ -11,7 +11,7 @@ from ..arrays import UV_MAP as LIGHT
 from .node_builder import Builder
 
 MODIFIER = "Reflection Points"
-SIDES = 6  # of a disc; it is the polygon round the circle, so that discs that touch leave no gap
+SIDES = 6  # sides of the polygon around each circle, so that touching discs leave no gap
 FACE_NUMBERS = ("source_object", "source_face", "mirror_face")
 
 
@@ -40,7 +40,7 @@ def hide_discs(obj: bpy.types.Object) -> None:
 
 
 def disc_nodes(obj: bpy.types.Object) -> bpy.types.NodeTree | None:
-    """The nodes that draw the discs of `obj`; None where there are none."""
+    """Return the nodes that draw the discs of `obj`; None if there are none."""
     modifier = _modifier_of(obj)
     return None if modifier is None else modifier.node_group
 
@@ -95,10 +95,10 @@ def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
 
 def _where_known(builder: Builder, points: bpy.types.NodeSocket, uv_map: str,
                  geometry: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-    """A UV map moved to the corners of `geometry` where the points have it; without it, `geometry` as it is."""
+    """Return `geometry` with a UV map at its corners if the points have it, else unchanged."""
     known = builder.add("GeometryNodeInputNamedAttribute", data_type="FLOAT_VECTOR")
     known.inputs["Name"].default_value = uv_map
-    # of the first point, since a switch of geometry takes one value and not one a point
+    # take the value of the first point, since a switch of geometry needs one value for all points
     first = builder.add("GeometryNodeSampleIndex", data_type="BOOLEAN", domain="POINT")
     builder.join(points, first.inputs["Geometry"])
     builder.join(known.outputs["Exists"], next(socket for socket in first.inputs

@@ -35,7 +35,7 @@ class Builder:
 
     def moved(self, geometry: bpy.types.NodeSocket, attribute: str, read: str, stored: str,
               domain: str) -> bpy.types.NodeSocket:
-        """An attribute of the points moved to the faces or corners of their discs."""
+        """Move an attribute of the points to the faces or corners of their discs."""
         node = self.add("GeometryNodeStoreNamedAttribute", data_type=stored, domain=domain)
         node.inputs["Name"].default_value = attribute
         self.join(geometry, node.inputs["Geometry"])

@@ -15,7 +15,7 @@ def groups_of_shaders(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
 
 
 def open_groups(tree: bpy.types.NodeTree) -> None:
-    """Put what is in groups that make shaders in the place of these, in a tree which is our own."""
+    """Replace groups that make shaders by their contents, in a tree that must be our own."""
     while groups := groups_of_shaders(tree):
         for group in groups:
             _open(tree, group)
@@ -25,7 +25,7 @@ def _open(tree: bpy.types.NodeTree, group: bpy.types.Node) -> None:
     inner = group.node_tree
     made = copied([node for node in inner.nodes if node.type not in BORDERS], tree)
     given = {socket.identifier: socket for socket in group.inputs}
-    # what comes in
+    # inputs of the group
     for node in inner.nodes:
         if node.type == "GROUP_INPUT":
             for link in [link for output in node.outputs for link in output.links if link.to_node in made]:

@@ -7,10 +7,10 @@ from .node_builder import Builder
 
 
 class ShaderBuilder(Builder):
-    """Adds shader nodes to a tree; where it takes a value, that may be a socket, a number or a colour."""
+    """Adds shader nodes to a tree. Each value may be a socket, a number or a colour."""
 
     def feed(self, value, socket: bpy.types.NodeSocket) -> None:
-        """A socket's value, a number or a colour into a socket."""
+        """Link or assign a value (a socket, a number or a colour) to a socket."""
         if isinstance(value, bpy.types.NodeSocket):
             self.tree.links.new(value, socket)
         elif socket.type == "RGBA":
@@ -38,14 +38,14 @@ class ShaderBuilder(Builder):
         return node.outputs[2]
 
     def calculated(self, how: str, first, second=0.0) -> bpy.types.NodeSocket:
-        """A number from two, or from one."""
+        """Return the result of a Math node of one or two numbers."""
         node = self.add("ShaderNodeMath", operation=how)
         self.feed(first, node.inputs[0])
         self.feed(second, node.inputs[1])
         return node.outputs[0]
 
     def vector(self, how: str, first, second=None, **inputs) -> bpy.types.NodeSocket:
-        """A vector, or a length, from one or two vectors, and from numbers by the names of their inputs."""
+        """Return the result of a Vector Math node of one or two vectors. Further inputs are given by name."""
         node = self.add("ShaderNodeVectorMath", operation=how)
         for value, socket in ((first, node.inputs[0]), (second, node.inputs[1]),
                               *((value, node.inputs[name]) for name, value in inputs.items())):
@@ -54,20 +54,20 @@ class ShaderBuilder(Builder):
         return next(socket for socket in node.outputs if socket.enabled)
 
     def combined(self, x, y, z) -> bpy.types.NodeSocket:
-        """A vector of three numbers."""
+        """Return a vector of three numbers."""
         node = self.add("ShaderNodeCombineXYZ")
         for value, socket in zip((x, y, z), node.inputs):
             self.feed(value, socket)
         return node.outputs[0]
 
     def separated(self, vector) -> tuple:
-        """The three numbers of a vector."""
+        """Return the three components of a vector."""
         node = self.add("ShaderNodeSeparateXYZ")
         self.feed(vector, node.inputs[0])
         return tuple(node.outputs)
 
     def dot(self, first, second) -> bpy.types.NodeSocket:
-        """The product of two vectors, a number."""
+        """Return the dot product of two vectors."""
         return self.vector("DOT_PRODUCT", first, second)
 
     def added(self, first: bpy.types.NodeSocket, second: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
@@ -79,7 +79,7 @@ class ShaderBuilder(Builder):
 
 
 def given(socket: bpy.types.NodeSocket):
-    """What a socket is given: another socket, or its own value."""
+    """Return the socket that is linked to `socket`, or else its own value."""
     if socket.is_linked:
         return socket.links[0].from_socket
     value = socket.default_value
@@ -87,14 +87,14 @@ def given(socket: bpy.types.NodeSocket):
 
 
 def cut(tree: bpy.types.NodeTree, socket: bpy.types.NodeSocket, value: float) -> None:
-    """Give a socket a value of its own."""
+    """Remove the links to a socket and set its value."""
     for link in list(socket.links):
         tree.links.remove(link)
     socket.default_value = value
 
 
 def node_behind(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node that feeds a socket, past reroutes."""
+    """Return the node that feeds a socket, ignoring reroutes; None if nothing does."""
     while socket.is_linked and socket.links[0].from_node.type == "REROUTE":
         socket = socket.links[0].from_node.inputs[0]
     return socket.links[0].from_node if socket.is_linked else None

@@ -16,7 +16,7 @@ from .copied_nodes import copied
 from .shader_builder import ShaderBuilder
 
 MARK = "reflection_mesh_unblurred"
-TWIN_BELOW = 1000.0  # where nodes of EEVEE's own stand
+TWIN_BELOW = 1000.0  # vertical distance at which nodes for EEVEE alone are placed
 
 
 def show_unblurred(tree: bpy.types.NodeTree, looks: list[bpy.types.Node], output: bpy.types.Node,
@@ -51,8 +51,9 @@ def show_unblurred(tree: bpy.types.NodeTree, looks: list[bpy.types.Node], output
 
 
 def _unblurred(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.NodeTree:
-    """A group of nodes that tells the colour and the opacity of an image at a place from 0 to 1, interpolated linearly
-    from its own texels alone, and its border's beyond it."""
+    """Return a node group that computes the colour and the alpha of an image at UV coordinates, by linear interpolation
+    of its own texels. Beyond the border it repeats the border.
+    """
     group = bpy.data.node_groups.new(f"{image.name} Unblurred", "ShaderNodeTree")
     # whoever takes back what shows it may have removed it
     whole.undo(remove_new, group)
@@ -83,7 +84,7 @@ def forget_unblurred(groups: list[bpy.types.NodeTree]) -> None:
 
 
 def unblurred_in(tree: bpy.types.NodeTree | None) -> list[bpy.types.NodeTree]:
-    """The groups of this kind that a tree shows."""
+    """Return the groups of this kind that a tree uses."""
     return list(dict.fromkeys(node.node_tree for node in (tree.nodes if tree else ())
                               if node.type == "GROUP" and node.node_tree is not None and MARK in node.node_tree))
 
