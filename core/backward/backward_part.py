@@ -123,6 +123,7 @@ class BackwardPart:
         labels = Labels(key, node, nodes[0], nodes[1], shares[0], shares[1], self._rough(paths, at, key))
         cells = faces_of_cells(labels, cells_of(labels, self.lattice.step, STRAIGHT), len(spots))
         middle, spot = self._middles(every, spots, cells)
+        self.counts["rays"] = self.rays
         every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
         return self._moved(every, spots), spots, cells
 
