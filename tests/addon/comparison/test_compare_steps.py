@@ -29,6 +29,8 @@ def scene(saved_scene, tmp_path):
     dish.data.polygons.foreach_set("use_smooth", [True] * len(dish.data.polygons))
     dish.reflection_mesh.role = "MIRROR"
     dish.visible_glossy = False
+    # as `comparison` takes it; and the stages of a second bounce would come again
+    bpy.context.scene.reflection_mesh.depth = 1
     bpy.data.objects["Box"].location.x = 1.2
     bpy.context.view_layer.update()
     parts.select(bpy.data.objects["Box"])
@@ -215,8 +217,6 @@ def test_one_undo_step(scene, tmp_path):
 
 
 def test_the_command_says_each_stage_once(scene, room, tmp_path, capsys):
-    # the stages of a second bounce would come again
-    bpy.context.scene.reflection_mesh.depth = 1
     assert room("addon.command_line").run(["compare", "--samples", "1", "--output", str(tmp_path / "out")]) == 0
     lines = [line for line in capsys.readouterr().out.splitlines() if " %  " in line]
     stages = [line.partition(" %  ")[2] for line in lines]

@@ -66,6 +66,8 @@ def test_a_mirror_without_a_result_takes_what_roles_say(scene):
 
 def test_several_results_are_updated_at_once(scene):
     mirror, cube, result = scene
+    # one of them seen in the other does not move as the cube does
+    bpy.context.scene.reflection_mesh.depth = 1
     floor = parts.add("plane", "Floor", size=6.0)
     parts.select(cube, floor)
     floor.data.materials.append(mirror.data.materials[0])
