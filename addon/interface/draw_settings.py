@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
 from ..reading import can_take_part
 from ..settings import holder_of, mirror_of
@@ -21,7 +22,7 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
         column = layout.column()
         for name in names:
             if name == "depth" and holder.depth == 0:
-                column.prop(holder, name, text="Bounces: Automatic")
+                column.prop(holder, name, text=pgettext_iface("Bounces: Automatic"), translate=False)
             else:
                 column.prop(holder, name)
 

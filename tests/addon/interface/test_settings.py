@@ -238,7 +238,7 @@ def test_bakes_know_the_settings_of_mirrors_with_their_own(pair, room):
     plan = bake.Plan("folder", [1], wanted, 1)
     same = plan.made_with(pair, None, mirrors)
     # what was baked when settings were the scene's alone is still known
-    assert same == bake.Plan("folder", [1], room("core").Settings(), 1).made_with(pair, None, mirrors)
+    assert same == bake.Plan("folder", [1], room("core").Settings(depth=0), 1).made_with(pair, None, mirrors)
     right = mirrors[1].reflection_mesh
     right.own_settings, right.placement, right.light_samples = True, "VIRTUAL", 99
     own = plan.made_with(pair, None, mirrors)
