@@ -10,13 +10,15 @@ import pytest
 from core import CausticMesh, Lamp, NothingInView, TriangleMesh, caustics
 from core.caustics import most_layers
 from core.caustics.slivers import merged
-from core.geometry import edge_lengths, shared_edges
+from core.geometry import doubled_areas, edge_lengths, shared_edges
 from tests.core.caustics.test_caustics import areas, quad, solid_angle
 
 WALL = 1.0  # the mirrors stand on the floor in the plane y = 1
 HALF = 20.0  # of the floor
 CONE = np.radians(35.0)  # half angle of the spots
 LAMPS = {"high": (0.0, -2.0, 4.0), "level with the upper edge": (0.0, -3.0, 2.0), "aside": (2.0, -2.0, 3.0)}
+# measured: 0.004, 0.010 and 0.005; below 0.008 each on another processor, which rounds otherwise
+ERRORS = dict(zip(LAMPS.values(), (0.008, 0.013, 0.008)))
 lamps = pytest.mark.parametrize("place", LAMPS.values(), ids=LAMPS)
 
 
@@ -59,24 +61,18 @@ def border(mesh: CausticMesh) -> float:
     return float(np.linalg.norm(np.diff(mesh.positions[ends[alone]], axis=1), axis=2).sum())
 
 
-def doubled_area(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return twice the signed area (n,) of triangles whose sides are first and second (n, 2)."""
-    return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-
-
 def at_places(mesh: CausticMesh, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Count the faces (n,) that hold places (n, 2) of the floor, and add up their irradiance (n,) there.
 
     Corners are rounded as Blender stores them.
     """
     corners = mesh.positions.astype(np.float32)[mesh.triangles].astype(np.float64)[:, :, :2]
-    a, b, c = np.moveaxis(corners, 1, 0)
     count, light = np.zeros(len(places), dtype=int), np.zeros(len(places))
-    whole = doubled_area(b - a, c - a)
+    whole = doubled_areas(corners)
     for number, place in enumerate(places):
         with np.errstate(divide="ignore", invalid="ignore"):
-            weights = np.stack([doubled_area(one - place, other - place) / whole
-                                for one, other in ((b, c), (c, a), (a, b))], axis=1)
+            weights = np.stack([doubled_areas(np.where(np.arange(3)[:, None] == k, place, corners)) / whole
+                                for k in range(3)], axis=1)
         holds = (weights >= 0.0).all(axis=1)
         count[number] = holds.sum()
         light[number] = (weights * mesh.irradiance)[holds].sum()
@@ -121,8 +117,7 @@ def test_a_spot_s_light_in_a_flat_mirror_is_the_cone_of_its_image(place):
     exact = np.where(meets, lamp.share(on_mirror) * behind[2] / np.linalg.norm(way, axis=1)**3, 0.0)
     count, light = at_places(mesh, places)
     assert count.max() == 1 and count[exact > 0.0].min() == 1
-    # measured: 0.004, 0.010 (below 0.008 on another processor) and 0.005
-    assert np.abs(light - exact).max() < 0.013 * exact.max()
+    assert np.abs(light - exact).max() < ERRORS[place] * exact.max()
 
 
 def test_a_mirror_seen_edge_on_throws_no_light():
