@@ -95,7 +95,13 @@ def write_own_map(found: OwnMap, frame: Frame, whole: AllOrNothing) -> Steps[bpy
 
 
 def _own_triangles(source: bpy.types.Object, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the face corners (m, 3) and the polygon (m,) of each of the `count` reflected triangles."""
+    """Return the loop indices (count, 3) and the polygon index (count,) of each triangle of a source's own mesh.
+
+    Raises
+    ------
+    ReflectionError
+        If the mesh cannot be written, or is not what was reflected, in `count` triangles.
+    """
     if source.type != "MESH" or source.library is not None or source.is_instancer:
         raise ReflectionError(f"'{source.name}' has no mesh of its own that could be written: choose A Copy.")
     mesh = source.data

@@ -114,8 +114,9 @@ def render_truths(context: bpy.types.Context, copied: CopiedScene, case: Case) -
 
 
 def coarser(size: tuple[int, int]) -> tuple[int, int]:
-    """Return a size smaller by `COARSER`, whose sides have no common divisor with those of `size`; nearly the same
-    aspect.
+    """Return a picture's size divided by about `COARSER`.
+
+    The width and the old width have no common divisor, nor have the heights, so that few pixel centres coincide.
     """
     def side(length: int) -> int:
         found = max(2, round(length / COARSER))

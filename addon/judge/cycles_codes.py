@@ -213,7 +213,7 @@ def _vector(tree: bpy.types.NodeTree, operation: str, *sources: bpy.types.NodeSo
 
 
 def _glossy(tree: bpy.types.NodeTree) -> bpy.types.Node:
-    """Return the shader node of a perfect mirror."""
+    """Add a perfect mirror, a white Glossy BSDF of roughness 0, to a node tree and return the node."""
     glossy = tree.nodes.new("ShaderNodeBsdfAnisotropic")
     glossy.distribution = "GGX"
     glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)

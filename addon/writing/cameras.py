@@ -53,7 +53,7 @@ def _put_aside(obj: bpy.types.Object) -> None:
 
 
 def bring_back(obj: bpy.types.Object) -> None:
-    """Show a result again that `_put_aside` has hidden."""
+    """Show a reflection object again where `_put_aside` has hidden it; what the user hid stays hidden."""
     for switch, aside in zip(SWITCHES, obj.reflection_mesh.aside):
         if aside:
             setattr(obj, switch, False)

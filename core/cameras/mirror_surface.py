@@ -195,9 +195,10 @@ def _coordinates(own: np.ndarray, moves: np.ndarray) -> np.ndarray:
 
 
 def _least_rise(upright: np.ndarray) -> np.ndarray:
-    """Return the smallest sine (n,) allowed between a leaving ray and its triangle.
+    """Return the least sine (n,) of the angle between a reflected ray and the flat triangle that it leaves.
 
-    `upright` (n,) is the sine between the arriving ray and the triangle.
+    Cycles bends smooth normals until rays leave at this angle. `upright` (n,) is the sine of the angle between the
+    arriving ray and the triangle.
     """
     return np.minimum(0.9 * np.abs(upright), LEAST_RISE)
 

@@ -197,14 +197,15 @@ class Holders:
 
 def _straying(met: SceneAndMirrors, triangle: np.ndarray, five: tuple[np.ndarray, np.ndarray],
               view: View) -> np.ndarray:
-    """Return the deviation (2, n) of squares' centres if two faces meet along the first, or the second, diagonal.
+    """Return how far (2, n) the middle of a square in the picture would be shown from its place by two faces.
 
-    The deviation is a share of the diagonal's length.
+    The faces have the square's corners, and share the diagonal from corner 0 to 2 (row 0) or from 1 to 3 (row 1). The
+    distance is that of the point on the source, as a share of the length that the diagonal has there.
 
     Parameters
     ----------
     triangle : (n,) int64, triangle that each square shows
-    five : tuple, places and rays (3, n, 5) at the four corners and the centre
+    five : tuple, places on the mirror and rays that leave them, (3, n, 5) each, at the four corners and the centre
     """
     places, rays = five
     seen, column = distinct(triangle)

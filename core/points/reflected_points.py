@@ -50,7 +50,7 @@ def reflected_points(cameras: Cameras, patch: Patch | None, met: SceneAndMirrors
 
 def _drawn(mirror_map: MirrorMap, tree: PointTree, images: PointImages, how: tuple[str, float],
            counts: dict[str, int]) -> ReflectionMesh:
-    """Build the result mesh of images, as points with discs.
+    """Build the result from images of scene points: a vertex for each, with the axes of the disc that shows it.
 
     `how` is the placement, one of `PLACEMENTS`, and the factor on the offset of layers (`SceneAndMirrors.slide`).
     """

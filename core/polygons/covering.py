@@ -48,9 +48,10 @@ class Overlaps(ColumnArrays):
                            for part in portions(max(len(camera), 1), PAIRS_AT_ONCE)])
 
     def in_sight(self, last: bool) -> Candidates:
-        """Return the candidates that mirrors do not surely hide from the whole of their camera.
+        """Return the candidates (pairs of a camera and a triangle) but for those that mirrors certainly hide whole.
 
-        At the `last` bounce mirror triangles are kept only where they may hide something.
+        At the `last` bounce nothing is seen in mirror triangles, so they are kept only if they may hide other
+        candidates of their camera.
         """
         count = len(self.candidates.cameras)
         asked = np.flatnonzero(mask(count, self.candidates.camera[self.mirror])[self.candidates.camera])

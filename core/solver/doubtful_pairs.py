@@ -137,11 +137,19 @@ def _images(still, moving, lengths, roots, distance):
 
 
 def _inside(weights, area, lengths, roots):
-    """Return True where P may lie in the moved triangle within rounding, and the triangle surely has an area.
+    """Return True (n,) if the point may lie in the moved triangle within rounding, and the triangle surely has an area.
 
-    p + W_B a + W_C b = 0. Through p, a, b and the products the weight of a corner is off by at most 8 u times the
-    lengths that go into them, over the triangle's height at that corner; through the root's error, by the way that P
-    moves in that time against the triangle, over the height.
+    The triangle's corners have moved along their rays by s, the root of the cubic. The weight of a corner is off by two
+    errors, both over the triangle's height at that corner: that of rounding, at most 8 units of roundoff times the
+    lengths involved; and that of s, times the speed of the point against the triangle.
+
+    Parameters
+    ----------
+    weights : (3, n) float64, barycentric coordinates of the point at the root
+    area : (n,) float64, doubled area of the moved triangle
+    lengths : (6, n) float64
+        Bounds: of the way from the point to the first corner, of two sides, and of what these change by for s = 1.
+    roots : with `value`, `error` and `spread`, (n,) each
     """
     x, e1, e2, r, d1, d2 = lengths
     t = roots.value

@@ -23,13 +23,15 @@ MOST_WORK = 1 << 23  # lines of cameras, each once for every triangle that hides
 
 
 def without_occluded(mirror: TriangleMesh, cameras: Cameras, grid: DepthGrid) -> tuple[Cameras, int, int]:
-    """Cut off the parts of cameras that other triangles of the mirror hide.
+    """Cut off the parts of three-ray cameras that other triangles of the mirror hide from the eye.
+
+    There is a camera for each triangle of the mirror.
 
     Returns
     -------
     cameras : Cameras
     cut : int, number of cameras that were cut
-    left : int, number of cameras with too many occluders that were not cut, or not along all outlines
+    left : int, number of cameras with too many occluders: some of these hide a part that was not cut off
     """
     view = cameras.view
     mirror, owner = triangles_before_eye(view, mirror, np.unique(cameras.face))

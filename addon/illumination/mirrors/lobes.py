@@ -34,8 +34,10 @@ class Lobe:
     groups: Groups
 
     def told(self, name: str) -> tuple[np.ndarray, bool]:
-        """Return the number or the colour (3,) of a socket, possibly from a group's own socket, and True if it is
-        constant.
+        """Return the value of an input socket of the shader, a number or a colour (3,), and True if nothing is linked.
+
+        If the socket is fed by an input of its node group, the value is that of the group node's socket. If something
+        is linked there, the value is the socket's default.
         """
         socket, _ = outermost(self.shader.inputs[name], self.groups)
         value = np.array(socket.default_value, dtype=np.float64)

@@ -75,7 +75,7 @@ def forget_materials(materials: list) -> None:
 
 
 def _shining(material: bpy.types.Material | None, name: str) -> bpy.types.Material:
-    """Return a copy of a material that transmits all light and adds the emission, as seen by its mirrors."""
+    """Return a new material `name`: a Transparent BSDF plus the emission of `material`, none if that is None."""
     made = material.copy() if _emission(material) else bpy.data.materials.new(name)
     made.name, made[GLINT] = name, True
     made.cycles.emission_sampling = "NONE"

@@ -207,7 +207,10 @@ def empty_remarks(sequences: list[Sequence]) -> list[str]:
 
 
 def layer_remarks(scene: bpy.types.Scene, layers: list) -> list[str]:
-    """Return a sentence on view layers that are rendered but were not baked, in a list that may be empty."""
+    """Return a list of one sentence, if one view layer alone was baked (`layers`) and the scene renders others too.
+
+    The list is empty otherwise.
+    """
     names = {layer.name for layer in layers}
     others = [layer.name for layer in scene.view_layers if layer.use and layer.name not in names]
     if len(names) > 1 or not others:

@@ -50,11 +50,10 @@ def with_bent_faces(normals: np.ndarray, corners: np.ndarray, bent: np.ndarray) 
 
 
 def told_apart(normals: np.ndarray, material: np.ndarray) -> np.ndarray:
-    """Return normals (m, 3, 3) of a mirror's triangles, changed so that triangles of different materials (m,) never
-    agree in a normal.
+    """Return the corner normals (m, 3, 3) of a mirror's triangles, turned by `APART` times their `material` (m,).
 
-    A face of a result extends over several triangles of the mirror where their normals agree, and is split where they
-    do not. So each face lies on one material.
+    A face of the reflection may extend over neighbouring mirror triangles if their normals at shared corners are
+    equal. So no face extends over two materials.
     """
     if not len(material) or (material == material[0]).all():
         return normals
