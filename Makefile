@@ -17,10 +17,12 @@ WINDOW_TESTS = tests/window/ways_in.py tests/window/clicks.py tests/window/repea
 
 RUN = $(VENV)/bin/python
 READY = $(VENV)/.ready
+VIEWER = build/viewer
+THREE = $(VIEWER)/node_modules/three/package.json
 
 .DEFAULT_GOAL := help
 .PHONY: help environment demo measure report report-plots numerics rate work pictures \
-        test test-all lint test-core test-addon test-addon-slow test-addon-rest test-window live-picture window-pictures fuzz zip samples clean
+        test test-all lint test-core test-addon test-addon-slow test-addon-rest test-window viewer live-picture window-pictures fuzz zip samples clean
 
 help:
 	@echo "make demo     the main job on a sample (SAMPLE=$(SAMPLE)): pictures and numbers in $(DEMO)/ (VERBOSE=1: Cycles' log)"
@@ -103,7 +105,7 @@ test: environment
 	@echo "About 6 minutes on two cores; each part's results follow when it is done."
 	@$(TWO_AT_A_TIME) test-addon lint test-core ONLY="$(QUICK)" COVER=--every-feature
 
-test-all: environment
+test-all: environment viewer
 	@$(TWO_AT_A_TIME) test-addon-slow test-addon-rest test-core lint
 
 lint: environment
@@ -115,6 +117,16 @@ test-core: environment
 
 test-addon test-addon-slow test-addon-rest: environment
 	$(RUN) -m pytest -q $(if $(ONLY),-m "$(ONLY)") $(COVER) tests/addon
+
+# three.js, which shows exported files in Chromium: tests of that are skipped where either is missing
+viewer: $(if $(shell command -v npm),$(THREE))
+	@[ -e $(THREE) ] || echo "Exported files are NOT shown by three.js: that needs npm and Chromium (on Debian: apt-get install npm chromium)."
+
+$(THREE): $(addprefix tests/addon/exports/viewer/,package.json package-lock.json .npmrc)
+	@mkdir -p $(VIEWER)
+	cp $^ $(VIEWER)
+	cd $(VIEWER) && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
 
 test-addon-slow: ONLY = slow
 test-addon-rest: ONLY = not slow

@@ -84,6 +84,10 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                             "scene's", type=bpy.types.Object, override=OVERRIDABLE)
     aside: BoolVectorProperty(name="Aside", size=2, description="Hidden in renders, and in the viewport, while another "
                               "camera looks that has reflections of its own", override=OVERRIDABLE)
+    bounces: IntProperty(name="Bounces", default=1, description="By how many mirrors at most it shows anything")
+    world_faces: StringProperty(name="World Faces", default="LIT", description="When it has faces that show the world")
+    hidden_faces: BoolProperty(name="Hidden Faces", description="It has faces that nearer ones hide, with light of "
+                               "their own", override=OVERRIDABLE)
     window: BoolProperty(name="Window", description="Its mirror is a window where this reflection's camera looks",
                          override=OVERRIDABLE)
     origin: FloatVectorProperty(name="Origin", size=3, description="Where it was generated, in world space")
@@ -113,9 +117,6 @@ class ReflectionObject(SettingsOfMirror, bpy.types.PropertyGroup):
                           "where it has none")
     light_material: PointerProperty(name="Light Material", description="What shows this reflection its light",
                                     type=bpy.types.Material, override=OVERRIDABLE)
-    light_map: PointerProperty(name="Light Map", description="Where the triangles of the objects lie in light that "
-                               "stays with them; none where this reflection shows light of a picture",
-                               type=bpy.types.Mesh, override=OVERRIDABLE)
     lit_from: StringProperty(name="Lit From", description="All that this light depends on, as digests in JSON, and the "
                              "settings that it was made with; empty where that is not known")
     mirror_uv_source: PointerProperty(name="Copy Of", description="The object that this one, cut along what a mirror "

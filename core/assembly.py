@@ -1,7 +1,7 @@
 """Assembly: nodes and faces of all bounces as the plain arrays of the result.
 
-A face shows the front of its source where the light left from there, and is turned towards the eye then: which sides
-are fronts is told as in the scene, though what a mirror shows is turned over.
+A face of the result is front-facing to the eye if the light left the front side of its source triangle. Front and
+back are those of the scene, although a mirror image reverses the winding order.
 """
 from __future__ import annotations
 
@@ -16,20 +16,33 @@ from .geometry import SceneFrames, area_normals, columns, distinct, dot, doubled
 from .polygons import Faces
 from .result import ReflectionMesh, halfway, place
 from .support import breathe, portions
-from .views import LampView
+from .views import LampView, View
 from .whole_faces import Seamed
 
-BESIDE = 1e-9  # of what is met: a corner that is farther from its source triangle lies beside it
-OFF_MIRROR = 1e-6  # of the size of what is seen of it: how far from it a place may lie
-CORNERS_AT_ONCE = 1 << 17  # before whoever waits has a turn
+BESIDE = 1e-9  # share of the sources' bounding box: a corner farther from its source triangle lies outside of it
+OFF_MIRROR = 1e-6  # share of the visible mirror's bounding box: largest distance of a vertex from its mirror triangle
+CORNERS_AT_ONCE = 1 << 17  # corners per chunk, between two cooperative yields
 ON_CAUSTIC = 1e-5  # magnification below which bisection has put a node on the caustic
 
 
-def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
-             reach: float = 0.0, whole: Seamed | None = None) -> ReflectionMesh:
-    """The faces as arrays, no two on the same nodes, without unused nodes."""
-    parts, start = [], 0
+def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement: str,
+             whole: tuple[Seamed, float] | None = None, backward: dict | None = None) -> ReflectionMesh:
+    """Join all faces of the reflection into one `ReflectionMesh`, without duplicate faces and without unused vertices.
+
+    Parameters
+    ----------
+    bounces : list of Bounce, faces made by cameras, the first bounce first
+    met : SceneAndMirrors
+    placement : str, one of `PLACEMENTS`
+    whole : (Seamed, float), optional
+        Unclipped triangles of the first bounce, and the longest path length that was assumed for their depth order.
+    backward : dict, optional, arrays of the faces made by rays from the eye
+    """
+    parts: list[dict] = []
+    start, reach = 0, 0.0
     for number, bounce in enumerate(bounces, 1):
+        mirror_map = bounces[0].cameras.mirror_map
+        assert isinstance(mirror_map, MirrorMap)  # the first bounce has no other map
         part, node = _arrays(mirror_map, bounce, met)
         part["bounces"] = np.full(len(part["triangles"]), number, dtype=np.int8)
         part["triangles"] = part["triangles"] + start
@@ -37,29 +50,48 @@ def assemble(mirror_map: MirrorMap, bounces: list[Bounce], met: SceneAndMirrors,
         parts.append(part)
         breathe()
         if whole is not None and number == 1:
-            parts.append(_whole_arrays(mirror_map, whole, bounce, node, met))
+            seams, reach = whole
+            parts.append(_whole_arrays(mirror_map, seams, bounce, node, met))
             start += len(parts[-1]["path_length"])
-    most = max(part["mirror_normals"].shape[1] for part in parts)
+    maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     for part in parts:
-        normals = part["mirror_normals"]
-        part["mirror_normals"] = np.pad(normals, ((0, 0), (0, most - normals.shape[1]), (0, 0)))
+        part["later_mirrors"] = _later_mirrors(maps, part["bounces"], part["map_face"], met)
+    if backward is not None:
+        parts.append({**backward, "triangles": backward["triangles"] + start})
+    _pad(parts, "mirror_normals", 0.0)
+    _pad(parts, "later_mirrors", -1)
     breathe()
     arrays = {name: np.concatenate([part.pop(name) for part in parts]) for name in tuple(parts[0])}
     breathe()
-    maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     map_face = arrays.pop("map_face")
-    arrays["later_mirrors"] = _later_mirrors(maps, arrays["bounces"], map_face, met)
-    if isinstance(mirror_map.view, LampView):
+    if isinstance(view, LampView):
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
-    arrays["positions"] = place(mirror_map.view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
+    arrays["positions"] = place(view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
                                 met.slide).T
     return ReflectionMesh(**arrays)
 
 
+def _pad(parts: list[dict], name: str, value: float) -> None:
+    """Pad the array `name` of all parts in place with `value`, to the same length of its second axis (bounces)."""
+    most = max(part[name].shape[1] for part in parts)
+    for part in parts:
+        own = part[name]
+        missing = [(0, most - own.shape[1]) if axis == 1 else (0, 0) for axis in range(own.ndim)]
+        part[name] = np.pad(own, missing, constant_values=value)
+
+
 def _later_mirrors(maps: tuple, bounces: np.ndarray, map_face: np.ndarray, met: SceneAndMirrors) -> np.ndarray:
-    """The triangles (m, b) of the mirrors, as given, that faces are seen by after the first one; -1 behind the last."""
-    later = np.full((len(map_face), len(maps) - 1), -1)
+    """Return the indices (m, b) of the mirror triangles that reflect each face after the first mirror; -1 if none.
+
+    Parameters
+    ----------
+    maps : tuple of ReflectionMap, one for each bounce
+    bounces : (m,) int, number of bounces of each face
+    map_face : (m,) int64, face of its bounce's map that each face is seen in
+    met : SceneAndMirrors, maps to the indices of the input mirrors
+    """
+    later = np.full((len(map_face), max(len(maps) - 1, 0)), -1)
     for number, ray_map in enumerate(maps, 1):
         chosen = np.flatnonzero(bounces == number)
         face = map_face[chosen]
@@ -71,7 +103,11 @@ def _later_mirrors(maps: tuple, bounces: np.ndarray, map_face: np.ndarray, met: 
 
 def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np.ndarray,
                   met: SceneAndMirrors) -> dict:
-    """The whole faces of the first bounce, behind the vertices of its others, of which `node` (n,) names the nodes."""
+    """Return the result arrays of the unclipped triangles of the first bounce.
+
+    Their vertex indices continue after the n vertices of the bounce's other faces; `node` (n,) holds the indices of the
+    nodes that those vertices were made from.
+    """
     count = len(whole.same)
     places, points = (np.concatenate(both, axis=1) for both in ((whole.place, bounce.nodes.place),
                                                                 (whole.point, bounce.nodes.point)))
@@ -79,7 +115,7 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
     turned = _turned(mirror_map, whole.nodes, places, places,
                      rows(met.positions[met.triangles[sources].T]))
     nodes = np.where(turned[:, None], whole.nodes[:, [0, 2, 1]], whole.nodes)
-    # vertices that the faces of cameras have already
+    # reuse vertices that the faces of cameras have already
     vertex_of = np.full(places.shape[1], -1)
     vertex_of[count + node[::-1]] = np.arange(len(node))[::-1]
     shared = np.flatnonzero(whole.same >= 0)
@@ -106,13 +142,13 @@ def _whole_arrays(mirror_map: MirrorMap, whole: Seamed, bounce: Bounce, node: np
 
 
 def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple[dict, np.ndarray]:
-    """The faces of a bounce, and the node that each vertex was."""
+    """Return the result arrays of a bounce's faces, and the index (n,) of the node that each vertex was made from."""
     frames, nodes, faces = bounce.frames, bounce.nodes, bounce.faces
     mirror_map = bounce.cameras.mirror_map
-    # mirrors are seen by what they show
+    # drop faces whose source is a mirror: the next bounce shows their reflection instead
     faces = faces.select(~met.shows_mirror(frames)[faces.column])
     frames, faces = _on_whole_triangles(frames, faces, met)
-    # doubled triangles of the scene, and polygons that fold flat, give the same face twice
+    # drop duplicate faces, which come from duplicate triangles of the scene and from polygons that fold flat
     once, _ = groups(*np.sort(faces.nodes, axis=1).T)
     faces = faces.select(np.sort(once))
     used, corner = distinct(faces.nodes.ravel())
@@ -135,7 +171,7 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
     breathe()
     turned = mirror_map.turned(owner, uv, nodes.distance[used])
     breathe()
-    # a corner that was brought back to its triangle or to the mirror has left its ray by a little
+    # corners moved back to their triangle or to the mirror lie slightly off their ray: measure the path by its points
     mirrors = [seen, *mirror_map.met_later(owner, uv)]
     stops = [*mirrors, point]
     corners = rows(met.positions[frames.vertices[:, faces.column]])
@@ -158,13 +194,16 @@ def _arrays(first_map: MirrorMap, bounce: Bounce, met: SceneAndMirrors) -> tuple
 
 
 def _corner_faces(bounce: Bounce, faces: Faces, seen: np.ndarray) -> np.ndarray:
-    """The face of the map (f, 3) that each corner of the faces lies on, seen at (3, f, 3) places."""
+    """Return the indices (f, 3) of the map's faces that the corners of the f faces lie on.
+
+    `seen` (3, f, 3) holds the corners' places on the mirror, as [component, face, corner].
+    """
     cameras, spanning = bounce.cameras, len(bounce.corner_face)
     face = np.repeat(cameras.face[faces.camera][:, None], 3, axis=1)
     chosen = np.flatnonzero(faces.camera >= len(cameras) - spanning)
     if len(chosen):
         camera = faces.camera[chosen]
-        # their corners are those of their cameras, in whatever order
+        # these faces have the corners of their cameras, possibly in another order
         same = (seen[:, chosen, :, None] == cameras.places[:, cameras.corners[camera]][:, :, None]).all(axis=0)
         face[chosen] = np.take_along_axis(bounce.corner_face[camera - len(cameras)], np.argmax(same, axis=2), axis=1)
     return face
@@ -172,14 +211,17 @@ def _corner_faces(bounce: Bounce, faces: Faces, seen: np.ndarray) -> np.ndarray:
 
 def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np.ndarray,
             corners: np.ndarray) -> np.ndarray:
-    """Which faces (f, 3) are turned wrongly: to the eye where the back of their source is seen, or away where its front
-    is.
+    """Return True (f,) for faces with the wrong winding order.
+
+    The order is wrong if a face is front-facing to the eye although the back of its source is seen, or back-facing
+    although the source's front is seen.
 
     Parameters
     ----------
+    nodes : (f, 3) int64, vertices of the faces
     seen, last : (3, n) float64
-        Where the eye sees the nodes, and where the light met the last mirror on its way to them.
-    corners : (3, 3, f) float64, of the sources' triangles, component and corner first
+        Vertices on the first mirror, where the eye sees them, and on the last mirror, where the light met it.
+    corners : (3, 3, f) float64, corners of the source triangles, as [component, corner, face]
     """
     away = doubled_areas(mirror_map.view.pixels(seen.T)[nodes]) < 0.0
     breathe()
@@ -192,14 +234,19 @@ def _turned(mirror_map: MirrorMap, nodes: np.ndarray, seen: np.ndarray, last: np
 
 
 def _mirror_normals(mirror_map: MirrorMap, seen: np.ndarray, leaving: list[np.ndarray]) -> np.ndarray:
-    """Unit normals (n, b, 3) of b mirrors, halfway between the ways of light to and from each: it is seen at (3, n)
-    places of the first and goes on along `leaving`, (3, n) each."""
+    """Return unit normals (n, b, 3) of the b mirrors: the half vectors of the arriving and the leaving ray.
+
+    `seen` (3, n) are places on the first mirror; `leaving` holds the ray directions (3, n) after each mirror.
+    """
     ways = [mirror_map.view.directions(seen.T).T, *leaving]
     return np.stack([halfway(before, after).T for before, after in zip(ways, ways[1:])], axis=1)
 
 
 def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors) -> tuple[SceneFrames, Faces]:
-    """The faces with columns for the triangles that their pieces lie in."""
+    """Return frames of the whole source triangles, and the faces with their `column` indices changed to these frames.
+
+    Pieces of split triangles are replaced by the triangles that they lie in.
+    """
     if met.pieces is None:
         return frames, faces
     source, column = distinct(met.sources(frames.triangle[faces.column]))
@@ -208,11 +255,24 @@ def _on_whole_triangles(frames: SceneFrames, faces: Faces, met: SceneAndMirrors)
 
 def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, point: np.ndarray, frames: SceneFrames,
                 met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The faces (f, 3) with corners that lie on their source triangles, and of each vertex the one that it was, and its
-    point (3, n).
+    """Move reflected points onto their source triangles, and split vertices that several sources share.
 
-    Straight outlines may leave a corner a fraction of a pixel beside its triangle, and neighbours of another source may
-    share it: such a corner becomes a vertex of its own, in the same place of the picture, with the point of the rim.
+    Straight outlines may leave a corner a fraction of a pixel outside of its triangle, and faces of another source may
+    share it. Such a corner becomes a vertex of its own, at the same place in the picture, with a point on the border of
+    its triangle.
+
+    Parameters
+    ----------
+    triangles : (f, 3) int64, vertices of the faces
+    column : (3 f,) int64, column of `frames` with the source of each corner
+    weights : (3, 3 f) float64, barycentric coordinates of each corner within its source
+    point : (3, n) float64, reflected points of the vertices, in world space
+
+    Returns
+    -------
+    triangles : (f, 3) int64, new vertices of the faces
+    vertex : (k,) int64, the old vertex that each new one comes from
+    point : (3, k) float64, reflected points of the new vertices
     """
     corner = triangles.ravel()
     own = np.empty((3, len(corner)))
@@ -226,7 +286,7 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
     vertex = np.concatenate((np.arange(count), corner[beside[first]]))
     point = np.concatenate((point, own[:, beside[first]]), axis=1)
     corner[beside] = count + group
-    # a vertex that no face is left of goes; new ones stand where they come from
+    # drop unused vertices; sort the new ones by the vertex that they come from
     kept, _ = distinct(corner)
     kept = kept[in_order(vertex[kept])]
     number = np.empty(len(vertex), dtype=np.int64)
@@ -235,8 +295,17 @@ def _on_sources(triangles: np.ndarray, column: np.ndarray, weights: np.ndarray, 
 
 
 def _on_mirror(mirror_map: MirrorMap, face: np.ndarray, triangles: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Places (3, n) of vertices, those that lie on the mirror triangle of no corner, `face` (3 f,), that is there
-    brought back to it: an image may lie beside the mirror by as much as straight outlines may miss."""
+    """Move vertices that lie off the mirror back onto it, and return the places (3, n) of all vertices.
+
+    An image may lie outside of the mirror by the error of straight outlines.
+
+    Parameters
+    ----------
+    mirror_map : MirrorMap
+    face : (3 f,) int64, mirror triangle of each corner of the faces
+    triangles : (f, 3) int64, vertices of the faces
+    seen : (3, n) float64, places of the vertices, in world space
+    """
     if not len(face):
         return seen
     owner = np.zeros(seen.shape[1], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The way through the house: view and mirror and diffuse scene in, reflection mesh out."""
+"""The pipeline of the core: from a view, a mirror and a diffuse scene to a reflection mesh."""
 from __future__ import annotations
 
 from collections.abc import Generator
@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from .assembly import assemble
+from .backward import BackwardPart, backward_arrays
 from .bounce import Bounce, Task, bounced, refined, showing_mirrors
 from .bounced_cameras import bounced_cameras
 from .cameras import (
@@ -14,6 +15,7 @@ from .cameras import (
     MirrorMap,
     cut_at_horizon,
     in_picture,
+    pixels_of,
     three_ray_cameras,
     visible_triangles,
 )
@@ -26,17 +28,19 @@ from .points import reflected_points
 from .recentring import far_corner, moved_mesh, moved_surface, moved_view
 from .result import ReflectionMesh, in_given_order
 from .standing import Standing
-from .support import INSIDE, INSIDE_WHOLE, NothingInView, Progress, Settings, in_steps, keep_freed_memory
+from .support import INSIDE, INSIDE_WHOLE, LEFT, NothingInView, Progress, Settings, in_steps, keep_freed_memory
 from .trees import PointTree, SceneTree
 from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, slide_share, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
+UNSEEN = "The view does not see the mirror; turn the camera to the mirror or move it into view."
+
 
 def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
             settings: Settings = Settings(), mirrors: TriangleMesh | None = None,
             opacity: np.ndarray | None = None) -> ReflectionMesh:
-    """The reflection of a diffuse scene in a mirror as the view sees it.
+    """Compute the reflection of a diffuse scene in a mirror as the view sees it.
 
     Parameters
     ----------
@@ -44,15 +48,15 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     mirror : TriangleMesh
         In world space, with shading normals. Two-sided.
     scene : TriangleMesh or SceneTree or PointTree or Standing
-        In world space; a tree built before saves the time to build it, and what stands still together with the mirrors
-        more. The method POINTS takes a `PointTree`, and scenes of vertices without faces.
+        In world space. A tree saves the time to build one; a `Standing` also caches the mirrors. The method POINTS
+        takes a `PointTree`, or scenes of vertices without faces.
     settings : Settings
     mirrors : TriangleMesh, optional
-        In world space, all mirrors that may be seen in this one, itself among them; this one alone where omitted, or
-        those of a `Standing`. They hide what lies behind them, and from a depth of two on they reflect in their turn.
+        In world space. All mirrors that may be seen in this one, including itself. Default: `mirror` alone, or the
+        mirrors of a `Standing`. They hide objects behind them, and from a depth of two on they show reflections too.
     opacity : (m,) integer, optional
-        `Opacity` of each triangle of the scene, as it was given; all are opaque if omitted. What lies behind clear
-        triangles is in the result too. It is not a part of the mesh, so that trees stay valid while materials change.
+        `Opacity` of each triangle of the input scene; all are opaque if omitted. Objects behind clear triangles are in
+        the result too. It is not a part of the mesh, so that trees stay valid while materials change.
 
     Returns
     -------
@@ -62,7 +66,7 @@ def reflect(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | 
     Raises
     ------
     ReflectionError
-        Where the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it.
+        If the mirror or the scene is empty, the mirror is not in the picture, or the eye lies on it.
 
     Examples
     --------
@@ -92,9 +96,9 @@ def reflection_steps(
         view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
         settings: Settings = Settings(), mirrors: TriangleMesh | None = None,
         opacity: np.ndarray | None = None) -> Generator[tuple[float, str], None, ReflectionMesh]:
-    """`reflect` in steps: yields (share of the work done, stage that comes next) and returns the mesh at its end.
+    """Run `reflect` as a generator that yields (share of the work done, name of the next stage) and returns the mesh.
 
-    A stage that takes long yields several times. A generator that is closed before its end stops the work.
+    A long stage yields several times. Close the generator to cancel the work.
 
     Examples
     --------
@@ -111,7 +115,7 @@ def reflection_steps(
 
 def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTree | PointTree | Standing,
                  settings: Settings, mirrors: TriangleMesh | None, opacity: np.ndarray | None) -> ReflectionMesh:
-    """The reflection of a scene whose coordinates tell the mirror's shape well."""
+    """Compute the reflection of a scene near the origin, where float precision is enough for the mirror's shape."""
     progress = Progress()
     progress.next(0.0, "Preparing the scene")
     kind: type[SceneTree] | type[PointTree] = PointTree if settings.method == "POINTS" else SceneTree
@@ -126,50 +130,113 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
     met = met if isinstance(tree, PointTree) or settings.hidden_faces else met.from_outside(view)
     progress.done("tree")
 
-    cameras, uncut, (pixels, overlaid) = _seen_cameras(view, mirror, met, settings, progress)
+    backward = _backward(view, mirror, met, settings, progress)
+    try:
+        seen = _seen_cameras(view, mirror, met, settings, progress, None if backward is None else ~backward.chosen)
+    except NothingInView:
+        if backward is None:
+            raise
+        # cameras see nothing: the part of the mirror made by rays hides the rest
+        mesh = assemble(view, [], met, settings.placement, backward=backward_arrays(backward, met))
+        progress.done("rays", faces=len(mesh.triangles), **backward.counts)
+        mesh, error = in_given_order(mesh, tree.given, given), settings.tolerance
+    else:
+        mesh, error = _forward(met, settings, progress, seen, backward)
+        mesh = in_given_order(mesh, tree.given, given)
+        if not isinstance(tree, PointTree):
+            mirror_map = seen[0].mirror_map
+            assert isinstance(mirror_map, MirrorMap)  # the first bounce has no other map
+            probes, missed = missed_probes(view, mirror, mirror_map, met, mesh.mirror_position, mesh.triangles)
+            progress.done("probes", probes=probes, missed=missed)
+    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+
+
+def _forward(met: SceneAndMirrors, settings: Settings, progress: Progress,
+             seen: tuple[Cameras, int, tuple[int, int]], backward: BackwardPart | None) -> tuple[ReflectionMesh, float]:
+    """Compute the reflection that cameras see, and join it with the part made by rays (`backward`).
+
+    `seen` is the result of `_seen_cameras`.
+
+    Returns
+    -------
+    mesh : ReflectionMesh
+    error : float, estimated error in pixels
+    """
+    cameras, uncut, (pixels, overlaid) = seen
     met = _behind_panes(cameras, met, progress)
     limits = Limits.of(settings, pixels, len(met.triangles))
-    if isinstance(tree, PointTree):
-        patch = None
-        if not (overlaid or speck(view, tree.spheres[0][:, 0])):
-            plainly = showing_mirrors(cameras, met, limits).plainly
-            patch = Patch.largest(cameras, _entire(cameras, uncut) & ~plainly[cameras.face])
-        rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
-        rest = refined(rest, Task(met, settings, limits, True, progress), None)
-        mesh = reflected_points(rest, patch, met, settings.placement, progress)
-        progress.done("points", **mesh.counts)
-        return replace(in_given_order(mesh, tree.given, given), counts=progress.counts, seconds=progress.seconds)
-    task = Task(met, settings, limits, settings.depth == 1, progress)
+    if isinstance(met.tree, PointTree):
+        entire = np.zeros(0, dtype=bool) if overlaid else _entire(cameras, uncut)
+        mesh = _points(cameras, entire, Task(met, settings, limits, True, progress))
+        return mesh, mesh.estimated_error
+    task = Task(met, settings, limits, settings.bounces == 1, progress)
     showing = _showing_mirrors(cameras, task)
+    if not settings.depth and not showing.faces.any():
+        task = replace(task, last=True)
     whole, task = (None, task) if overlaid else _whole_first(cameras, uncut, task, showing.plainly)
-    bounces, seams, error, reach = _bounces(cameras, task, showing), None, 0.0, 0.0
+    bounces, seams, error, reach = _bounces(cameras, task, showing, pixels), None, 0.0, 0.0
     if whole is not None:
         seams, nodes = seamed(whole, bounces[0].cameras, bounces[0].frames, bounces[0].nodes, bounces[0].faces)
         bounces[0] = replace(bounces[0], nodes=nodes)
-        # whole faces were told apart by where they would lie if this were the longest path
+        # the depth order of whole faces assumed this longest path length
         reach, error = task.reach(cameras), INSIDE_WHOLE * _over_length(*whole.straying)
-    mirror_map = cameras.mirror_map
-    assert isinstance(mirror_map, MirrorMap)  # of the first bounce
-    del whole  # what is assembled needs the room
+    del whole  # free its memory before assembly
 
     progress.start, progress.share = 0.0, 1.0
     progress.next(0.95, "Sorting by depth")
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
-    mesh = assemble(mirror_map, bounces, task.met, settings.placement, reach, seams)
-    del bounces, seams
-    mesh = in_given_order(mesh, tree.given, given)
-    progress.done("placement", faces=len(mesh.triangles), depth=settings.depth)
-    probes, missed = missed_probes(view, mirror, mirror_map, task.met, mesh.mirror_position, mesh.triangles)
-    progress.done("probes", probes=probes, missed=missed)
-    return replace(mesh, counts=progress.counts, seconds=progress.seconds, estimated_error=error)
+    by_rays = None
+    if backward is not None:
+        by_rays, error = backward_arrays(backward, met), max(error, settings.tolerance)
+        progress.done("rays", **backward.counts)
+    mesh = assemble(cameras.view, bounces, task.met, settings.placement,
+                    None if seams is None else (seams, reach), by_rays)
+    depth = max(len(bounces), settings.depth, 1 if backward is None else backward.counts["depth"])
+    progress.done("placement", faces=len(mesh.triangles), depth=depth)
+    return mesh, error
 
 
-def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
-                  progress: Progress) -> tuple[Cameras, int, tuple[int, int]]:
-    """Cameras on what the view sees of the mirror; how many corners there were before any was cut; about how many
-    pixels see the mirror, and of how many cameras it is not told all that lies over them."""
+def _points(cameras: Cameras, entire: np.ndarray, task: Task) -> ReflectionMesh:
+    """Compute the reflected points that cameras see.
+
+    `entire` (n,) bool marks cameras that are uncut mirror triangles: these may form a patch. It may be empty.
+    """
+    patch = None
+    if len(entire) and not speck(cameras.view, task.met.tree.spheres[0][:, 0]):
+        patch = Patch.largest(cameras, entire & ~showing_mirrors(cameras, task.met, task.limits).plainly[cameras.face])
+    rest = cameras if patch is None else cameras.select(~np.isin(cameras.face, patch.face))
+    mesh = reflected_points(refined(rest, task, None), patch, task.met, task.settings.placement, task.progress)
+    task.progress.done("points", **mesh.counts)
+    return mesh
+
+
+def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings, progress: Progress,
+                  faces: np.ndarray | None = None) -> tuple[Cameras, int, tuple[int, int]]:
+    """Make cameras on the visible parts of the mirror.
+
+    Parameters
+    ----------
+    faces : (m,) bool, optional, triangles of the mirror to use; default all
+
+    Returns
+    -------
+    cameras : Cameras
+    uncut : int, number of corners before any camera was cut
+    pixels, overlaid : tuple of int
+        About how many pixels see the mirror, and for how many cameras the occluders in front are not all known.
+
+    Raises
+    ------
+    NothingInView
+        If the view does not see the mirror.
+    """
     progress.next(0.1, "Preparing the mirror")
-    body, faces = with_shades(view, mirror, visible_triangles(view, mirror))
+    chosen = visible_triangles(view, mirror) if faces is None or faces.any() else np.zeros(0, dtype=np.int64)
+    if faces is not None:
+        chosen = chosen[faces[chosen]]
+    if not len(chosen):
+        raise NothingInView(UNSEEN)
+    body, faces = with_shades(view, mirror, chosen)
     mirror_map = MirrorMap(view, body, settings.method == "PARALLEL", met.surface if body is met.mirrors else None)
     cameras = three_ray_cameras(mirror_map, body, faces)
     uncut = cameras.places.shape[1]
@@ -183,6 +250,21 @@ def _seen_cameras(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settin
     return cameras, uncut, (grid.mirror_pixels, overlaid)
 
 
+def _backward(view: View, mirror: TriangleMesh, met: SceneAndMirrors, settings: Settings,
+              progress: Progress) -> BackwardPart | None:
+    """Find the part of the mirror that is made backwards, by rays from the eye; return None if there is none.
+
+    Parallel cameras, points, lamps, and layers behind clear or hidden triangles are always made forward.
+    """
+    if (settings.method != "GENERAL" or settings.hidden_faces or isinstance(view, LampView)
+            or not met.opacities.all_opaque):
+        return None
+    progress.next(0.1, "Preparing the mirror")
+    part = BackwardPart(view, mirror, met, settings)
+    progress.done("rays")
+    return part if part else None
+
+
 def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) -> SceneAndMirrors:
     """Return `met` with layers that slide by less, so that they stay behind panes and films in front of the mirror."""
     share, covering = slide_share(cameras, met)
@@ -192,14 +274,22 @@ def _behind_panes(cameras: Cameras, met: SceneAndMirrors, progress: Progress) ->
 
 def _seen(cameras: Cameras) -> Cameras:
     if not len(cameras):
-        raise NothingInView("The view does not see the mirror; turn the camera to the mirror or move it into view.")
+        raise NothingInView(UNSEEN)
     return cameras
 
 
 def _with_mirrors(view: View, tree: SceneTree | PointTree, mirror: TriangleMesh, mirrors: TriangleMesh | None,
                   known: Standing | None) -> tuple[TriangleMesh, Order, SceneAndMirrors]:
-    """The mirror in its canonical order, and what rays may meet: the diffuse scene, the mirrors, and, of a lamp's
-    light, what else hides. What is `known` is of the same tree and the same mirrors."""
+    """Sort the mirror canonically, and join the diffuse scene, the mirrors and a lamp's occluders.
+
+    `known` is the cache of the same tree and the same mirrors, or None.
+
+    Returns
+    -------
+    mirror : TriangleMesh, in its canonical order
+    order : Order, of the mirror
+    met : SceneAndMirrors, triangles that rays may hit
+    """
     screens = view.screens if isinstance(view, LampView) else None
     if known is not None and screens is None:
         own = (known.met.mirrors, known.order) if mirror is mirrors else ordered(mirror, shading=True)
@@ -218,8 +308,11 @@ def _draws_whole(settings: Settings) -> bool:
 
 
 def _showing_mirrors(cameras: Cameras, task: Task) -> MirrorsShown:
-    """The mirrors that cameras of the first bounce may show. Where all is cut, and no light goes on, as with a lamp's,
-    they are looked for once, by the refined cameras: to know before which show none spares less than it takes."""
+    """Find the mirrors that cameras of the first bounce may show.
+
+    Return `unknown` if this is the last bounce and all faces are clipped, as for a lamp. Then the refined cameras
+    search for mirrors once; an earlier search would cost more time than it saves.
+    """
     if task.last and not _draws_whole(task.settings):
         return MirrorsShown.unknown(cameras)
     return showing_mirrors(cameras, task.met, task.limits)
@@ -227,8 +320,18 @@ def _showing_mirrors(cameras: Cameras, task: Task) -> MirrorsShown:
 
 def _whole_first(cameras: Cameras, uncut: int, task: Task,
                  showing: np.ndarray) -> tuple[WholeFaces | None, Task]:
-    """The faces that a part of the mirror shows whole, drawn from the images of their vertices, and the task with what
-    is left; cameras that have not been cut have no corners behind the first `uncut`."""
+    """Draw unclipped triangles from the images of their vertices, where a part of the mirror shows them whole.
+
+    Parameters
+    ----------
+    uncut : int, number of corners before any camera was cut: cameras with later corners have been cut
+    showing : (m,) bool, faces of the mirror that may show a mirror
+
+    Returns
+    -------
+    whole : WholeFaces or None
+    task : Task, for the rest of the scene and with the limits that are left
+    """
     settings, limits = task.settings, task.limits
     if not _draws_whole(settings):
         return None, task
@@ -246,37 +349,50 @@ def _whole_first(cameras: Cameras, uncut: int, task: Task,
 
 
 def _entire(cameras: Cameras, uncut: int) -> np.ndarray:
-    """Which cameras (n,) are triangles of the mirror whole: their corners lie before the `uncut` ones."""
+    """Return True (n,) for cameras that are uncut mirror triangles: their corner indices are all below `uncut`."""
     return (cameras.corners < uncut).all(axis=1) & (np.bincount(cameras.face)[cameras.face] == 1)
 
 
-def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown) -> list[Bounce]:
-    """What is seen after one mirror, after two, and so on to the depth asked for, or until nothing is left to see."""
+def _bounces(cameras: Cameras, task: Task, showing: MirrorsShown, pixels: int) -> list[Bounce]:
+    """Compute the bounces one after another: faces seen after one mirror, after two, and so on.
+
+    Stop at the depth in the settings, or if nothing is left to see. With automatic depth, stop also if the cameras left
+    cover less than a small share (`LEFT`) of the mirror's `pixels`.
+    """
     bounces: list[Bounce] = []
     met, settings, limits, progress = task.met, task.settings, task.limits, task.progress
-    for number in range(settings.depth):
-        progress.start, progress.share = 0.15 + 0.8 * number / settings.depth, 0.8 / settings.depth
-        last = number + 1 == settings.depth
+    most, enough = (1 if task.last else settings.bounces), (0.0 if settings.depth else LEFT * pixels)
+    for number in range(most):
+        # divide the progress bar: the first bounce gets most, later bounces share the rest
+        progress.start, progress.share = 0.95 - 0.8 / (number + 1), 0.8 / ((number + 1) * min(number + 2, most))
+        last = number + 1 == most
         bounces.append(bounced(cameras, replace(task, limits=limits, last=last), showing))
         if last:
             break
         limits, cameras = limits.of_next_bounce(), cut_at_horizon(bounced_cameras(bounces[-1], met))
         progress.done("cameras", bounced_cameras=len(cameras))
-        if not len(cameras):
+        if not len(cameras) or pixels_of(cameras).sum() < enough:
             break
         showing = showing_mirrors(cameras, met, limits)
     return bounces
 
 
 def _estimate(straying: np.ndarray, length: np.ndarray) -> float:
-    """99th percentile of the displacement inside the faces, from what edges stray by halfway, on the safe side: that
-    over the edges with what the inside may add, or that over the edges' length, where most edges are too short to be
-    seen."""
+    """Estimate the 99th percentile of the deviation inside the faces, in pixels, from the deviation at edge midpoints.
+
+    Return the larger of two estimates: the percentile over edges, times a factor for the inside of faces (`INSIDE`),
+    and the percentile over edge length, for meshes with many edges that are too short to be seen.
+
+    Parameters
+    ----------
+    straying : (e,) float64, deviation at the midpoint of each edge, in pixels
+    length : (e,) float64, length of each edge, in pixels
+    """
     return float(max(INSIDE * np.percentile(straying, 99), _over_length(straying, length)))
 
 
 def _over_length(straying: np.ndarray, length: np.ndarray) -> float:
-    """What 99 % of the length of all edges strays by at most."""
+    """Return the 99th percentile of the deviation `straying` (e,), weighted by the edges' `length` (e,), in pixels."""
     order = np.argsort(straying)
     below = np.cumsum(length[order])
     return straying[order[min(np.searchsorted(below, 0.99 * below[-1]), len(order) - 1)]] if len(order) else 0.0

@@ -3,30 +3,32 @@ from __future__ import annotations
 
 import argparse
 
-from ..settings import LIGHTS, METHODS, PLACEMENTS, SETTINGS, WRITTEN_SETTINGS
+from ..settings import ATTRIBUTES, METHODS, PLACEMENTS, SETTINGS, WORLD_FACES, WRITTEN_SETTINGS
 
 
 def number(text: str) -> float | None:
-    """A number; none where the text is empty: templates of farms name an option even where nothing is given."""
+    """Return a number; None for an empty text, since templates of farms pass options even without values."""
     return float(text) if text else None
 
 
 def whole_number(text: str) -> int | None:
-    """As `number`."""
+    """Return an integer; None for an empty text."""
     return int(text) if text else None
 
 
 def text(given: str) -> str:
-    """What was given, which is more than nothing: a script whose variable is empty means none of what is meant where
-    an option is left out."""
+    """Return a non-empty text. Reject an empty one, e.g. from an empty variable of a script, since it is not the same
+    as a missing option.
+    """
     if not given.strip():
         raise argparse.ArgumentTypeError("it is given without a value: write one, or leave the option out")
     return given
 
 
 class Names(argparse.Action):
-    """Names, none of them empty, but for templates of Open Job Description, which give options always: an empty one is
-    none. That progress is told to one has to be said before."""
+    """Collect names that are not empty. For templates of Open Job Description, which pass all options, an empty name
+    means none; the progress option must come before.
+    """
 
     def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values,
                  option_string: str | None = None) -> None:
@@ -37,13 +39,14 @@ class Names(argparse.Action):
 
 
 def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTINGS, of_farms: bool = False) -> None:
-    """The options for what is made by settings, `only` for these; `of_farms`: numbers may be empty."""
+    """Add the options for the settings `only`. With `of_farms`, numbers may be empty."""
     real, whole = (number, whole_number) if of_farms else (float, int)
     asked = {
         "tolerance": {"type": real, "metavar": "PIXELS", "help": "how far off a point may be"},
         "placement": {"choices": [item[0] for item in PLACEMENTS], "help": "where the reflection lies"},
         "method": {"choices": [item[0] for item in METHODS], "help": "what the reflection is made of"},
-        "depth": {"type": whole, "metavar": "BOUNCES", "help": "how many mirrors are followed, one after another"},
+        "depth": {"type": whole, "metavar": "BOUNCES",
+                  "help": "how many mirrors are followed, one after another; 0: as many as there are to see"},
         "memory": {"type": real, "metavar": "GB", "help": "what would need more is worked out more coarsely, or "
                    "refused"},
         "hidden_faces": {"action": argparse.BooleanOptionalAction, "help": "also the faces that nearer ones hide "
@@ -54,26 +57,23 @@ def add_settings(parser: argparse.ArgumentParser, only: tuple[str, ...] = SETTIN
         parser.add_argument(f"--{name.replace('_', '-')}", **asked[name])
 
 
-def add_join_parts(parser: argparse.ArgumentParser) -> None:
-    """The option for mirrors of several parts."""
+def add_written(parser: argparse.ArgumentParser) -> None:
+    """Add the options for what is written of a reflection."""
+    for name, items, text_ in (("attributes", ATTRIBUTES, "what points and faces know"),
+                               ("world-faces", WORLD_FACES, "when faces show the world")):
+        parser.add_argument(f"--{name}", choices=[item[0] for item in items], help=f"{text_} (else as the file has it)")
     parser.add_argument("--join-parts", action=argparse.BooleanOptionalAction,
                         help="mirrors that have one topmost parent share one reflection (else as the file has it)")
 
 
-def add_light(parser: argparse.ArgumentParser, option: str) -> None:
-    """The option for where light is kept."""
-    parser.add_argument(option, dest="kind", choices=[item[0] for item in LIGHTS],
-                        help="light of the picture, or light that stays with the objects (else as the file has it)")
-
-
 def add_own(parser: argparse.ArgumentParser) -> None:
-    """The options for what Cycles makes of its own of the light that mirrors throw."""
+    """Add the option for Cycles' own caustics."""
     parser.add_argument("--keep-own", dest="leave_out", action="store_false", default=None,
                         help="let Cycles add caustics of its own (else as before)")
     parser.add_argument("--replace-own", dest="leave_out", action="store_true", help="let it add none (else as before)")
 
 
 def given(options: argparse.Namespace, **more) -> dict:
-    """The settings that were given, by their names; `more` are those whose options are called otherwise."""
+    """Return the settings that were given, by name. `more` are settings whose options have other names."""
     values = {name: getattr(options, name, None) for name in SETTINGS + WRITTEN_SETTINGS} | more
     return {name: value for name, value in values.items() if value is not None}

@@ -25,12 +25,12 @@ from ..operators.print_sheet import DPI, check_print, printing
 from ..operators.rounding import rounding_remarks
 from ..operators.shortcomings import other_meshes, scene_shortcomings
 from ..reading import Participants, choose, seen_by_camera, shown_by, with_copies, without_shadow_catchers
-from ..settings import ATTRIBUTES, Wanted
+from ..settings import Wanted
 from .bake_verb import add_bake
 from .benchmark_verb import add_benchmark
 from .compare_verb import add_compare
 from .opening import open_file
-from .options import add_join_parts, add_light, add_own, add_settings, given, text
+from .options import add_own, add_settings, add_written, given, text
 from .place import add_place, placed
 from .progress import announced
 
@@ -66,19 +66,14 @@ def _parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="verb")
     generate = verbs.add_parser("generate", help="generate the reflections and save the file")
     add_settings(generate)
-    generate.add_argument("--attributes", choices=[item[0] for item in ATTRIBUTES],
-                          help="what points and faces know (else as the file has it)")
-    add_join_parts(generate)
+    add_written(generate)
     _add_participants(generate)
     generate.add_argument("--light", type=int, nargs="?", const=FILES, default=0, metavar="N",
                           help="light them too, with N samples per pixel (else the file's)")
-    add_light(generate, "--light-kind")
     _add_output(generate)
     generate.set_defaults(work=_generate)
     light = verbs.add_parser("light", help="let the reflections look as the mirrors do, and save the file")
     light.add_argument("--samples", type=int, metavar="N", help="samples per pixel (else the file's)")
-    add_light(light, "--kind")
-    light.add_argument("--every", action="store_true", help="also those that look right as they are, for glTF and USD")
     _add_output(light)
     light.set_defaults(work=_light)
     caustics = verbs.add_parser("caustics", help="generate the light that mirrors throw, and save the file")
@@ -151,7 +146,7 @@ def _generate(context: bpy.types.Context, options: argparse.Namespace) -> None:
             outcome.summary(time.perf_counter() - started)]
     if options.light:
         samples = None if options.light is FILES else options.light
-        told.append(_lit(context, [obj for obj, _ in outcome.results], samples, options.kind))
+        told.append(_lit(context, [obj for obj, _ in outcome.results], samples))
     save_blend(path)
     print(*told, sep="\n")
 
@@ -160,7 +155,7 @@ def _light(context: bpy.types.Context, options: argparse.Namespace) -> None:
     path = _path_to_save(options)
     if options.samples is not None and options.samples < 1:
         raise core.ReflectionError("Light takes at least one sample: raise --samples.")
-    told = _lit(context, chosen_results(context), options.samples, options.kind, options.every)
+    told = _lit(context, chosen_results(context), options.samples)
     save_blend(path)
     print(told)
 
@@ -200,16 +195,17 @@ def _mirror_uvs(context: bpy.types.Context, options: argparse.Namespace) -> None
     print(*told, sep="\n")
 
 
-def _lit(context: bpy.types.Context, results: list, samples: int | None, kind: str | None,
-         every: bool = False) -> str:
+def _lit(context: bpy.types.Context, results: list, samples: int | None) -> str:
     started = time.perf_counter()
-    wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples, light_kind=kind))
-    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results)), every))
+    wanted = Wanted(context.scene, given(argparse.Namespace(), light_samples=samples))
+    lit = announced(lighting_groups(context, wanted.lights(with_copies(context, results))))
     return "\n".join([*unlike_the_mirror(context, lit), lighting_summary(lit, time.perf_counter() - started)])
 
 
 def _path_to_save(options: argparse.Namespace) -> str:
-    """Where the file is to be saved, which can be written and is no picture or page that was named by mistake."""
+    """Return the path for saving the file. Check that it is writable and ends with .blend, not e.g. as a picture or a
+    page.
+    """
     if not (options.output or bpy.data.filepath):
         raise core.ReflectionError("There is no file to save to: open a .blend file or name one with --output.")
     path = os.path.abspath(options.output or bpy.data.filepath)
@@ -220,7 +216,7 @@ def _path_to_save(options: argparse.Namespace) -> str:
 
 
 def _chosen(context: bpy.types.Context, options: argparse.Namespace, unmirrored: bool = False) -> Participants:
-    """The objects named, or those that the selection and the roles choose, `unmirrored` as `choose` has it."""
+    """Return the objects named in the options, or those chosen by selection and roles; `unmirrored` as in `choose`."""
     if not (options.mirror or options.diffuse):
         return choose(context, unmirrored=unmirrored)
     if not options.mirror:

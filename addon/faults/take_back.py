@@ -1,4 +1,4 @@
-"""How a result and its mirror stood before they were written anew, for the case that writing fails."""
+"""Restore a result and its mirror if writing fails."""
 from __future__ import annotations
 
 import bpy
@@ -7,17 +7,18 @@ from .all_or_nothing import AllOrNothing
 
 PLACE = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 RECORD = ("role", "mirror", "lamp", "eyes", "keeps_own", "camera", "window", "attributes", "estimated_error", "seconds",
-          "counts", "faces", "points", "made_from", "light", "light_material", "light_map", "lit_from", "protected")
+          "counts", "faces", "points", "made_from", "light", "light_material", "lit_from", "hidden_faces", "bounces",
+          "world_faces", "protected")
 NUMBERS = ("resolution", "origin", "basis", "landmarks", "landmark_places", "aside")
 
 
 def still_there(items: list) -> list:
-    """Those of Blender's data that nobody has removed."""
+    """Return the items of Blender's data that have not been removed."""
     return [item for item in items if _is_there(item)]
 
 
 def remove_new(item: bpy.types.ID) -> None:
-    """Remove data that was made, for the case that what follows fails; between two steps others may have done so."""
+    """Remove newly made data because a later step has failed. Others may have removed it already."""
     bpy.data.batch_remove(still_there([item]))
 
 
@@ -29,7 +30,7 @@ def _is_there(item: bpy.types.ID) -> bool:
 
 
 def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let `whole` bring back where a result stands, what it knows and which materials it shows.
+    """Let `whole` restore a result's transform, record and materials.
 
     A library override is an object of this file from then on: Blender takes no entries out of an override's lists.
     """
@@ -63,18 +64,18 @@ def keep_object(obj: bpy.types.Object, whole: AllOrNothing) -> None:
             slot.link = link
             if link == "OBJECT":
                 slot.material = material
-    # what is kept later, such as the mesh with its slots, comes back before
+    # states stored later, such as the mesh with its slots, are restored first
     whole.undo(back)
 
 
 def keep_data(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let the mesh of `obj` be written, which is its own from then on."""
+    """Prepare the mesh of `obj` for writing; afterwards only `obj` uses it."""
     shared = obj.data.users > 1 or obj.data.library is not None
     (_keep_others_mesh if shared else _keep_mesh)(obj, whole)
 
 
 def _keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let the mesh of `obj`, which nothing else uses, be written: `whole` brings back a copy, under its name.
+    """Prepare the mesh of `obj`, which has no other users, for writing. `whole` restores a copy under its name.
 
     The copy shares its arrays with the mesh until these are written, and so takes no time and no memory.
     """
@@ -90,7 +91,7 @@ def _keep_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
 
 
 def _keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Give `obj` a mesh of its own to be written: whoever else shows its present one keeps that as it is."""
+    """Give `obj` a new mesh to write. Other users keep the present one."""
     shared = obj.data
     own = shared.copy()
     whole.undo(bpy.data.meshes.remove, own)
@@ -99,7 +100,7 @@ def _keep_others_mesh(obj: bpy.types.Object, whole: AllOrNothing) -> None:
 
 
 def keep_mirror(mirror: bpy.types.Object, whole: AllOrNothing) -> None:
-    """Let `whole` bring back whether the camera sees a mirror."""
+    """Let `whole` restore the camera visibility of a mirror."""
     def back(visible: bool, hidden: bool) -> None:
         mirror.visible_camera, mirror.reflection_mesh.camera_hidden = visible, hidden
     if mirror.library is None:

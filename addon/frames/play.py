@@ -5,10 +5,10 @@ import os
 from dataclasses import dataclass
 
 import bpy
-import numpy as np
 
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object
 from ..lighting import forget_light, forget_previews, new_material
+from ..mirror_part import Surroundings
 from ..reading import Assembly, camera_of, every_result_of, render_size, results_of
 from ..writing import (
     forget_nodes,
@@ -28,17 +28,17 @@ UNPACK = "Reflection Attributes"
 
 @dataclass(frozen=True)
 class Player:
-    """What lets one object play the result of one mirror; all that can fail has been done.
+    """Data for playing the result of one mirror. Everything that can fail has been done.
 
     Attributes
     ----------
     cache : bpy.types.CacheFile
     nodes : bpy.types.NodeTree
     materials : list of (name, library)
-        Of the object's slots.
+        Materials of the object's slots.
     light : bpy.types.Material or None
     unlit_apart : bool
-        Whether there are frames that show `materials`, from slots of their own, beside those that show light.
+        True if some frames are lit, and others show `materials` from separate slots.
     """
 
     joint: Assembly
@@ -57,14 +57,14 @@ class Player:
 
 def player_of(sequence: Sequence, joint: Assembly, light: bpy.types.Material | None,
               whole: AllOrNothing, key: str = "") -> Player:
-    """Read the files of one mirror; nothing that the user has is changed.
+    """Read the files of one mirror. Nothing of the user's is changed.
 
     Parameters
     ----------
     key : str
-        Of its result in the records; empty where that is the mirror's name.
+        Key of its result in the records; empty for the mirror's name.
     light : bpy.types.Material or None
-        What shows the sequence's light, from `light_of`.
+        Material that shows the sequence's light, from `light_of`.
     """
     known = [record.results[key or joint.mirror.name] for record in sequence.records]
     materials = sorted({entry for result in known for entry in result.materials})
@@ -78,7 +78,7 @@ def player_of(sequence: Sequence, joint: Assembly, light: bpy.types.Material | N
 
 
 def play(context: bpy.types.Context, player: Player, sources: list, whole: AllOrNothing) -> bpy.types.Object:
-    """Let the result of a mirror play: the one that it has, or a new one."""
+    """Make the result of a mirror play, either its existing one or a new one."""
     mirror = player.mirror
     obj = _object(context, player, whole)
     for part in player.joint.members:
@@ -121,13 +121,13 @@ def show_frames(obj: bpy.types.Object, player: Player, materials: list, whole: A
 
 
 def plays(obj: bpy.types.Object) -> bool:
-    """Whether an object plays baked frames."""
+    """Return True if an object plays baked frames."""
     cache = obj.modifiers.get(NAME)
     return cache is not None and cache.type == "MESH_SEQUENCE_CACHE"
 
 
 def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | None:
-    """A material that shows a sequence's pictures of light, each in its frame; None where there are none."""
+    """Return a material that shows the images of light of a sequence, frame by frame; None if there are none."""
     lit = [record for record in sequence.records if record.image]
     if not lit:
         return None
@@ -135,11 +135,12 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
     whole.undo(_remove, image)
     image.source, image.name = "SEQUENCE", f"Reflection Light {sequence.name}".strip()
     image.colorspace_settings.name = "Non-Color"
-    material = new_material(image.name, image, image, np.zeros((1, 1, 3), dtype=np.float32), whole)
+    behind = Surroundings(behind=set(sequence.placements.values()) != {"VIRTUAL"})
+    material = new_material(image.name, image, image, [None], behind, whole)
     tree = material.node_tree
     for node in tree.nodes:
         if node.type == "TEX_IMAGE":
-            # of one picture, whose number the keys say: between baked frames the last one stays
+            # a duration of one frame, whose number is keyed: the last baked image stays until the next one
             node.image_user.frame_start = node.image_user.frame_duration = 1
             node.image_user.use_auto_refresh = True
             keyed(tree, node.image_user, "frame_offset",
@@ -148,7 +149,7 @@ def light_of(sequence: Sequence, whole: AllOrNothing) -> bpy.types.Material | No
 
 
 def stop_playing(obj: bpy.types.Object) -> None:
-    """Take away what makes an object play, where there is anything, so that it shows its own mesh."""
+    """Remove everything that makes an object play, so that it shows its own mesh."""
     if not plays(obj):
         return
     cache, nodes = obj.modifiers[NAME], obj.modifiers.get(UNPACK)
@@ -168,8 +169,9 @@ def stop_playing(obj: bpy.types.Object) -> None:
 
 
 def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> bpy.types.Object:
-    """The result that is to play: one that the mirror has, called as the user likes where it plays already, or a new
-    one."""
+    """Return the result that will play: an existing one of the mirror, which keeps its name if it plays already, or a
+    new one.
+    """
     mirror, sequence = player.mirror, player.sequence
     called = result_name(mirror, sequence.name)
     earlier = results_to_play(context, player)
@@ -191,9 +193,10 @@ def _object(context: bpy.types.Context, player: Player, whole: AllOrNothing) -> 
 
 
 def results_to_play(context: bpy.types.Context, player: Player) -> list:
-    """The results of a mirror that may play a sequence, of which the first one will: the one that plays those files, or
-    files called so for the same camera, else the mirror's own; of several sequences the one that is called so, or a
-    still that its camera sees, and would see besides."""
+    """Return the results of a mirror that may play a sequence; the first one will. Prefer the one that plays these
+    files, or files of the same name for the same camera. Otherwise return the mirror's own results. With several
+    sequences, prefer the result of that name, or a still image for the same camera.
+    """
     sequence, every = player.sequence, every_result_of(context, player.mirror)
     called = result_name(player.mirror, sequence.name)
     same = [obj for obj in every if plays(obj) and _goes_on(obj, player)]
@@ -205,15 +208,16 @@ def results_to_play(context: bpy.types.Context, player: Player) -> list:
 
 
 def _goes_on(obj: bpy.types.Object, player: Player) -> bool:
-    """Whether what an object plays is what a player does: these files, or such as are called so in another folder and
-    are for the same camera."""
+    """Return True if an object plays the files of `player`, or files of the same name in another folder for the same
+    camera.
+    """
     (folder, name), (own_folder, own_name) = map(_numberless, (player.cache, obj.modifiers[NAME].cache_file))
     return name == own_name and (folder == own_folder
                                  or player.sequence.camera == getattr(camera_of(obj), "name", ""))
 
 
 def _numberless(cache: bpy.types.CacheFile | None) -> tuple[str, str]:
-    """The folder of a sequence's files, and what they are called but for their numbers."""
+    """Return the folder of a sequence's files, and their name without the number."""
     if cache is None:
         return "", ""
     folder, name = os.path.split(os.path.abspath(bpy.path.abspath(cache.filepath)))
@@ -221,14 +225,14 @@ def _numberless(cache: bpy.types.CacheFile | None) -> tuple[str, str]:
 
 
 def material_of(name: str, library: str) -> bpy.types.Material | None:
-    """A material of the file by its name; None where it is gone."""
+    """Return a material of the file by its name; None if it is deleted."""
     found = [material for material in bpy.data.materials if material.name == name
              and (material.library.filepath if material.library else "") == library]
     return found[0] if found else None
 
 
 def _cache(sequence: Sequence, files: list[str], whole: AllOrNothing) -> bpy.types.CacheFile:
-    """The files of one result as a sequence whose frames are keyed: between baked frames the last one stays."""
+    """Return the cache file of one result, with keyed frames. The last baked frame stays until the next one."""
     before = set(bpy.data.cache_files)
     bpy.ops.cachefile.open(filepath=os.path.join(sequence.folder, files[0]))
     cache, = set(bpy.data.cache_files) - before
@@ -242,7 +246,7 @@ def _cache(sequence: Sequence, files: list[str], whole: AllOrNothing) -> bpy.typ
 
 
 def _add_modifiers(obj: bpy.types.Object, player: Player, whole: AllOrNothing) -> None:
-    """The modifiers, before those that the user has added, and the constraint that puts `obj` where each frame was."""
+    """Add the modifiers, before the user's, and the constraint that moves `obj` to its place in each frame."""
     earlier = [obj.modifiers.get(name) for name in (NAME, UNPACK)]
     reading = earlier[0] or obj.modifiers.new(NAME, "MESH_SEQUENCE_CACHE")
     unpacking = earlier[1] or obj.modifiers.new(UNPACK, "NODES")
@@ -260,7 +264,7 @@ def _add_modifiers(obj: bpy.types.Object, player: Player, whole: AllOrNothing) -
 
 
 def _path(sequence: Sequence, name: str) -> str:
-    """The path of a sequence's file, relative to the open file where that can be."""
+    """Return the path of a sequence's file, relative to the open file if possible."""
     path = os.path.join(sequence.folder, name)
     if not bpy.data.filepath:
         return path

@@ -14,7 +14,8 @@ from ...core import ReflectionError, View
 from ..frames import plays
 from ..reading import is_result, lost_mirror, mirrors_of, read_view, render_size
 from .answers import answer
-from .made_from import LONGEST, SIZE_DIFFERS, same_view, view_numbers
+from .made_from import LONGEST, SIZE_DIFFERS, view_numbers
+from .made_from import same_view as is_same_view
 from .materials import SIZE
 from .rendered import rendered
 
@@ -22,14 +23,14 @@ from .rendered import rendered
 DIFFERENT = {"view": "the camera has changed", "mirror": "the mirror has changed", "objects": "an object has changed",
              "materials": "a material has changed", "lamps": "the lamps or the world have changed",
              "settings": "the render settings have changed", "sources": "it shows other objects"}
-OF_A_VIEW = {"sources", "mirror"}  # parts that light which stays with the objects does not depend on
+OF_A_VIEW = {"view", "sources", "mirror"}  # parts by which other points are seen, whose light is what it was
 RENDER = ("use_simplify", "simplify_subdivision_render", "simplify_child_particles_render", "hair_type", "hair_subdiv")
 CYCLES = ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces",
           "transparent_max_bounces", "caustics_reflective", "caustics_refractive", "blur_glossy", "sample_clamp_direct",
           "sample_clamp_indirect", "pixel_filter_type", "filter_width", "use_fast_gi", "fast_gi_method",
           "ao_bounces_render", "volume_step_rate", "volume_max_steps", "volume_unbiased", "dicing_rate",
           "max_subdivisions", "use_light_linking", "texture_limit_render")
-FAST_GI = ("ao_factor", "distance")  # of the world's light_settings
+FAST_GI = ("ao_factor", "distance")  # properties of the world's light_settings
 
 
 def lit_record(context: bpy.types.Context, view: View, lit: Iterable[bpy.types.Object], settings: dict) -> dict:
@@ -67,18 +68,23 @@ def _changed(context: bpy.types.Context, result: bpy.types.Object) -> str:
         return DIFFERENT["view"]
 
 
-def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list) -> str:
-    """Return what `why_light_differs` does, for a view and the sources that the result is to show."""
+def light_difference(context: bpy.types.Context, view: View, result: bpy.types.Object, sources: list,
+                     same_view: bool = True, same_mirror: bool = False) -> str:
+    """Return what `why_light_differs` does, for a view and the sources that the result is to show.
+
+    Without `same_view`, the view, the result's size and, without `same_mirror`, the mirror may be others than those it
+    was lit for.
+    """
     made, record = _read(result), result.reflection_mesh
     if not made:
-        # of earlier versions; light that stays with the objects asks itself whether these are the same
-        return "" if record.light_map is not None else DIFFERENT["view"]
-    # what is cheap comes first: while the camera is dragged nothing else is looked at
-    if record.light_map is None:
+        # results of earlier versions have no record
+        return DIFFERENT["view"]
+    # compare the view first: it is cheap, and while the camera is dragged nothing else is compared
+    if same_view:
         numbers = view_numbers(view)
         if numbers[32:] != made["view"][32:]:
             return SIZE_DIFFERS
-        if not same_view(made["view"], numbers):
+        if not is_same_view(made["view"], numbers):
             return DIFFERENT["view"]
     names, mirrors = set(made["mirrors"]), {*mirrors_of(result)}
     for obj in context.scene.objects:
@@ -87,19 +93,19 @@ def light_difference(context: bpy.types.Context, view: View, result: bpy.types.O
         elif is_result(obj) and obj.reflection_mesh.light_material == record.light_material:
             mirrors |= {*mirrors_of(obj)}
     now = _inputs(context, result, sources, mirrors - {None})
-    left_out = set() if record.light_map is None else OF_A_VIEW
+    left_out = set() if same_view else OF_A_VIEW - ({"mirror"} if same_mirror else set())
     return next((sentence for name, sentence in DIFFERENT.items()
                  if name in now and name not in left_out and made.get(name, now[name]) != now[name]), "")
 
 
 def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
             mirrors: Iterable[bpy.types.Object]) -> dict:
-    """Digests of all that a result's light depends on but its view, by the names of `DIFFERENT`."""
+    """Return digests of all inputs of a result's light except its view, by the keys of `DIFFERENT`."""
     shown, own = rendered(context), {mirror.session_uid for mirror in mirrors_of(result)}
     moving = {mirror.session_uid for mirror in mirrors}
     part_of = [shown.objects.get(source.session_uid, b"") for source in sources if source is not None]
     others = [digest for uid, digest in shown.objects.items() if uid not in moving]
-    # what moves with the view may be another mirror of the same light
+    # objects that move with the view may be other mirrors of the same light
     mirror = [shown.objects.get(uid, b"") for uid in moving - own]
     materials = [shown.materials[uid] + (b"" if uid in moving else shown.objects[uid]) for uid in shown.materials]
     return {"sources": _digest(part_of),
@@ -109,7 +115,7 @@ def _inputs(context: bpy.types.Context, result: bpy.types.Object, sources: list,
 
 
 def _settings(context: bpy.types.Context) -> str:
-    """A digest of the render settings on which light depends."""
+    """Return a digest of the render settings on which light depends."""
     scene = context.scene
     known = [[getattr(scene.render, name, None) for name in RENDER],
              [getattr(getattr(scene, "cycles", None), name, None) for name in CYCLES],

@@ -26,6 +26,7 @@ from .not_twice import (
     bring_back_abandoned,
     bring_back_own_caustics,
     follow_lamp,
+    is_shown_in,
     leave_out,
     leave_out_own_caustics,
     leaves_out,
@@ -41,7 +42,7 @@ __all__ = ["Caustic", "Eye", "MirrorColours", "MirrorPart", "MirrorPlaces", "NO_
            "adds_light", "blockers_of", "blocking", "bring_back_abandoned", "bring_back_layers",
            "bring_back_own_caustics", "caustic_arrays", "caustics_object", "chosen_lamps", "eyes_of", "follow_lamp",
            "follow_layers", "forget_added_light", "instancers_of_lamps", "is_bumped", "is_glint", "is_mesh_lamp",
-           "is_met", "is_sheared", "leave_out", "leave_out_own_caustics", "leaves_out", "leaves_out_any",
-           "let_lamps_light_mirrors", "let_through", "light_alone", "light_of_nodes", "makes_own_caustics",
-           "meant_lamps", "parts_of", "places_kept", "places_on_mirror", "radiance_of", "raises_layers", "rays_meet",
-           "receiving", "results_with", "stains", "textured", "write_caustics"]
+           "is_met", "is_sheared", "is_shown_in", "leave_out", "leave_out_own_caustics", "leaves_out",
+           "leaves_out_any", "let_lamps_light_mirrors", "let_through", "light_alone", "light_of_nodes",
+           "makes_own_caustics", "meant_lamps", "parts_of", "places_kept", "places_on_mirror", "radiance_of",
+           "raises_layers", "rays_meet", "receiving", "results_with", "stains", "textured", "write_caustics"]

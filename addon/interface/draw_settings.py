@@ -2,17 +2,18 @@
 from __future__ import annotations
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
 from ..reading import can_take_part
 from ..settings import holder_of, mirror_of
 
-# what is behind the closed door of "Limits"
-SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_kind", "light_samples"), (
-    "memory", "hidden_faces", "attributes", "join_parts")
+# settings in the subpanel "Limits"
+SHOWN, LIGHT, LIMITS = ("tolerance", "placement", "method", "depth"), ("light_samples",), (
+    "memory", "hidden_faces", "world_faces", "attributes", "join_parts")
 
 
 def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
-    """Those that hold for an object, and whose they are."""
+    """Draw the settings that apply to an object, and the switch for its own settings."""
     mirror = possible_mirror(obj)
     if mirror is not None:
         layout.prop(mirror.reflection_mesh, "own_settings")
@@ -20,18 +21,21 @@ def draw_settings(layout: bpy.types.UILayout, context: bpy.types.Context, obj: b
     for names in (SHOWN, LIGHT):
         column = layout.column()
         for name in names:
-            column.prop(holder, name)
+            if name == "depth" and holder.depth == 0:
+                column.prop(holder, name, text=pgettext_iface("Bounces: Automatic"), translate=False)
+            else:
+                column.prop(holder, name)
 
 
 def draw_limits(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object | None) -> None:
-    """What the work may take, and what it may leave out."""
+    """Draw the limits on memory and on the contents of results."""
     holder = holder_of(possible_mirror(obj), context.scene)
     for name in LIMITS:
         layout.prop(holder, name)
 
 
 def possible_mirror(obj: bpy.types.Object | None) -> bpy.types.Object | None:
-    """The object that may have settings of its own: a result's mirror, or what may be one."""
+    """Return the object that may have its own settings: a result's mirror, or an object that may be a mirror."""
     mirror = mirror_of(obj)
     if mirror is not None and len(obj.reflection_mesh.parts):
         # the root of a hierarchy may be an empty

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import ReflectionError
-from ..illumination import eyes_of, is_glint, is_met, rays_meet
+from ..illumination import eyes_of, is_glint, is_met, is_shown_in, rays_meet
 from ..reading import seen_in, vectors
 
 KNOWN = ("mirror_position", "reflected_position", "bounces")  # what a result must tell
@@ -34,6 +34,8 @@ class ShownLamp:
         As `illumination.Eye` has it.
     spot : bool
         Whether it shines within a cone alone.
+    lamp : bpy.types.Object or None
+        None is shown by every mirror.
     """
 
     place: np.ndarray
@@ -43,6 +45,7 @@ class ShownLamp:
     radiance: tuple[float, float, float]
     cone: tuple[float, float]
     spot: bool
+    lamp: bpy.types.Object | None = None
 
     @property
     def reach(self) -> float:
@@ -83,15 +86,15 @@ def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
         shape, area = "DISC" if data.use_soft_falloff else "BALL", np.pi * data.shadow_soft_size**2
     radiance = eye.power / max(area, 1e-30)
     return ShownLamp(matrix[:3, 3], eye.axes, shape, (float(width), float(height)), tuple(radiance.tolist()), eye.cone,
-                     data.type == "SPOT")
+                     data.type == "SPOT", lamp)
 
 
-def lamps_before(result: bpy.types.Object, lamps: list[ShownLamp]) -> tuple[ShownLamp, ...]:
-    """Those of `lamps` that may stand between the mirror and what a face of a result shows.
+def lamps_before(mesh: bpy.types.Mesh, lamps: list[ShownLamp], mirrors: list) -> tuple[ShownLamp, ...]:
+    """Those of `lamps` that may stand between one of the `mirrors` and what a face of a result's mesh shows.
 
     A lamp that none of the faces' rays comes near costs nothing then.
     """
-    mesh = result.data
+    lamps = [one for one in lamps if one.lamp is None or any(is_shown_in(one.lamp, mirror) for mirror in mirrors)]
     if not lamps or not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
         return ()
     corners = np.empty(len(mesh.loops), dtype=np.int32)

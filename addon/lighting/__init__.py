@@ -1,23 +1,32 @@
-"""Light on reflections: what Cycles shows in their mirrors, rendered once, on the faces that show it."""
-from .density import make_denser, needed_density
-from .light_material import new_export_image, new_image, new_material
-from .light_scene import light_scene, paper_white_of, white_of
+"""Light on reflections: Cycles shades what they show, along the paths on which their mirrors see it."""
+from .export_image import is_cut_out, new_export_image, straight
+from .further_mirrors import FurtherMirrors
+from .kept_light import KeptLight
+from .known_texels import remember
+from .light_material import alone, new_image, new_material, show_as_cut_out
+from .light_paths import LightPaths
 from .lit_results import (
-    dull_objects,
+    can_be_lit,
     forget_light,
     is_lit,
     keep_light,
+    lay_out,
     light_sentence,
+    prepared,
     show_light,
-    show_object_light,
+    write_colours,
 )
+from .lit_results import record_of as light_record
 from .mattes import lacks_mattes, update_mattes
 from .needs_light import is_plain, needs_light
-from .picture import Window, beside_lamps, is_overexposed, on_the_mirror, pixel_kernel, texels_of
+from .path_sheet import path_scene, render_paths
 from .preview import forget_previews, show_previews, shows_preview
+from .unwrapping import FROM_MIRROR, Placed, Unwrapped, unwrap
+from .world_faces import WORLD
+from .world_material import show_world
 
-__all__ = ["Window", "beside_lamps", "dull_objects", "forget_light", "forget_previews", "is_lit", "is_overexposed",
-           "is_plain", "keep_light", "lacks_mattes", "light_sentence", "light_scene", "make_denser", "needed_density",
-           "needs_light", "new_export_image", "new_image", "new_material", "on_the_mirror", "paper_white_of",
-           "pixel_kernel", "show_light", "show_object_light", "show_previews", "shows_preview", "texels_of",
-           "update_mattes", "white_of"]
+__all__ = ["FROM_MIRROR", "FurtherMirrors", "KeptLight", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone",
+           "can_be_lit", "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light",
+           "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image",
+           "new_material", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light",
+           "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]

@@ -1,7 +1,7 @@
-"""The material that shows a picture of light where the camera saw it, and the images that it shows."""
+"""The material that shows light on a reflection, and the images that it shows."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import partial
 
 import bpy
@@ -11,10 +11,18 @@ from ... import core
 from .. import compat
 from ..faults import AllOrNothing, Steps, part, remove_new
 from ..files import open_exr
-from ..writing import UV_MAP, images_of, show_unblurred
-from .picture import SHINING
+from ..mirror_part import MirrorPart, Surroundings, copied_shaders
+from ..reading.materials import is_opaque, one_output, surface_shader
+from ..writing import UV_MAP, show_unblurred
+from ..writing.nodes.copied_nodes import copied
+from ..writing.nodes.opened_groups import open_groups
+from ..writing.nodes.shader_builder import ShaderBuilder, cut, given
 
 WRITING = "Writing"
+OPAQUE = 0.999
+WITH_OPACITY = 4 * 32   # bits of a texel
+FOR_USD = "For USD"
+CLEAR = {"BSDF_TRANSPARENT", "BSDF_REFRACTION", "BSDF_GLASS"}   # shaders that light goes through
 
 
 def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
@@ -34,98 +42,141 @@ def new_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.t
     return image
 
 
-def new_export_image(name: str, texels: np.ndarray, whole: AllOrNothing) -> Steps[bpy.types.Image]:
-    """The same for files that know no more than eight bits: sRGB, and nothing brighter than white."""
-    yield 0.0, WRITING
-    light = np.clip(texels, 0.0, 1.0)
-    # IEC 61966-2-1
-    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 0.0031308)**(1.0 / 2.4) - 0.055)
-    yield 0.0, WRITING
-    height, width, channels = shown.shape
-    rgba = np.ones((height, width, 4), dtype=np.float32)
-    rgba[..., :channels] = shown
-    image = bpy.data.images.new(name, width, height, alpha=channels == 4)
-    whole.undo(remove_new, image)
-    image.alpha_mode = "CHANNEL_PACKED"
-    yield 0.0, WRITING
-    image.pixels.foreach_set(rgba.ravel())
-    yield 0.0, WRITING
-    image.pack()
-    yield 0.0, WRITING
-    return image
-
-
-def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image, texels: np.ndarray,
-                 whole: AllOrNothing, apart: tuple[bpy.types.Image, bpy.types.Image] | None = None
+def new_material(name: str, image: bpy.types.Image, export_image: bpy.types.Image,
+                 mirror: Sequence[bpy.types.Material | None], around: Surroundings, whole: AllOrNothing
                  ) -> bpy.types.Material:
-    """A material that emits an image where the map `UV_MAP` says: Cycles and EEVEE show `image`, or what of it is
-    matte and what shines from two images `apart`, what follows the output for all engines shows `export_image`, in
-    nodes that exporters read. EEVEE shows a still by `show_unblurred`, and an animated picture, whose size changes, by
-    its own look-up.
+    """Return a material that shows light as the materials of a `mirror` reflect it.
+
+    Cycles and EEVEE show `image`, by the UV map `UV_MAP`, tinted and mixed as the mirror's own shader would at the true
+    angle. Exporters find `export_image`, which has all of that in it, as unlit base colour. The last of
+    four channels of `image` is opacity.
+
+    Parameters
+    ----------
+    mirror : sequence of bpy.types.Material or None
+        None shows all of the light.
+    """
+    material, shaders = _merged(name, mirror, whole)
+    tree = material.node_tree
+    own = [node for node in tree.nodes if node.label != FOR_USD]
+    light = _look_up(tree, image)
+    build = MirrorPart(tree, light.outputs["Color"], around)
+    shown = build.surface(mirror, shaders, own)
+    opacity = image.depth == WITH_OPACITY
+    if opacity:
+        shown = build.mixed(light.outputs["Alpha"], build.clear(), shown)
+    output = one_output(tree)
+    tree.links.new(shown, output.inputs["Surface"])
+    for name_ in ("Displacement", "Volume"):
+        for link in list(output.inputs[name_].links):
+            tree.links.remove(link)
+    if image.source != "SEQUENCE":
+        show_unblurred(tree, [light], output, whole)
+    before = build.before_the_mirror(shown, mirror)
+    if opacity and around.behind:
+        # a clear mirror shows its reflection itself
+        before = build.mixed(build.calculated("GREATER_THAN", light.outputs["Alpha"], OPAQUE), build.clear(), shown)
+    build.feed(before, build.add("ShaderNodeOutputMaterial", target="CYCLES").inputs["Surface"])
+    if image.source == "SEQUENCE":
+        # EEVEE's own look-up: the nodes above know the size of one picture alone
+        build.feed(shown, build.add("ShaderNodeOutputMaterial", target="EEVEE").inputs["Surface"])
+    _add_export(build, output, export_image, opacity or not all(map(is_opaque, mirror)))
+    return material
+
+
+def show_as_cut_out(material: bpy.types.Material) -> None:
+    """Let glTF's exporter write that what a material of light shows is either clear or opaque."""
+    build = ShaderBuilder(material.node_tree)
+    for link in list(material.node_tree.nodes.active.outputs["Alpha"].links):
+        # that of USD knows no such thing
+        if link.to_node.type == "MIX_SHADER":
+            build.feed(build.calculated("GREATER_THAN", link.from_socket, 0.5), link.to_socket)
+
+
+def alone(material: bpy.types.Material) -> bpy.types.Material:
+    """Return a copy of a material of light that shows in Cycles what EEVEE shows, and stops what goes through it: the
+    opacity of the picture tells of that."""
+    copy = material.copy()
+    tree, build = copy.node_tree, ShaderBuilder(copy.node_tree)
+    shown = tree.get_output_node("EEVEE").inputs["Surface"].links[0].from_socket
+    build.feed(shown, tree.get_output_node("CYCLES").inputs["Surface"])
+    for node in [node for node in tree.nodes if node.type in {*CLEAR, "BSDF_PRINCIPLED"}]:
+        links, shader = list(node.outputs[0].links), node.outputs[0]
+        colour = given(node.inputs["Color" if node.type in CLEAR else "Base Color"])
+        left = sum(colour[:3]) / 3.0 if isinstance(colour, tuple) else colour
+        stopped = build.mixed(left, build.glow(0.0), build.add("ShaderNodeHoldout").outputs[0])
+        if node.type not in CLEAR:
+            through = given(node.inputs["Transmission Weight"])
+            cut(tree, node.inputs["Transmission Weight"], 0.0)
+            stopped = build.mixed(through, shader, stopped)
+        for link in links:
+            build.feed(stopped, link.to_socket)
+    return copy
+
+
+def _add_export(build: ShaderBuilder, output: bpy.types.Node, image: bpy.types.Image, clear: bool) -> None:
+    """Let the output for all other engines show an image in nodes that exporters read, with its opacity if `clear`.
 
     That of glTF makes an unlit material of a colour which is the surface itself; that of USD takes what it knows of
     the first Principled BSDF that it finds, be it connected or not.
     """
-    material = bpy.data.materials.new(name)
-    whole.undo(remove_new, material)
-    tree = compat.use_nodes(material)
-    tree.nodes.clear()
-
-    def add(kind: str, place: tuple[float, float], **settings) -> bpy.types.Node:
-        node = tree.nodes.new(kind)
-        node.location = place
-        for key, value in settings.items():
-            setattr(node, key, value)
-        return node
-    spot = add("ShaderNodeAttribute", (-600.0, 0.0), attribute_name=UV_MAP)
-    for shown, row, engines in ((image, 200.0, ("CYCLES", "EEVEE")), (export_image, -200.0, ("ALL",))):
-        look = add("ShaderNodeTexImage", (-350.0, row), name=shown.name, image=shown, interpolation="Linear",
-                   extension="EXTEND")
-        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
-        for column, engine in enumerate(engines):
-            output = add("ShaderNodeOutputMaterial", (200.0 * column, row), target=engine)
-            tree.links.new(look.outputs["Color"], output.inputs["Surface"])
-    if apart is not None:
-        _put_apart(tree, add, spot, apart)
-    if image.source != "SEQUENCE":
-        exact = [node for node in tree.nodes if node.type == "TEX_IMAGE" and node != look]
-        show_unblurred(tree, exact, tree.get_output_node("CYCLES"), whole)
-    # the last of both: what exporters begin at, and what solid view shows by texture
+    tree = build.tree
+    look = _look_up(tree, image)
+    output.target = "ALL"
+    shown = look.outputs["Color"]
+    if clear:
+        shown = build.mixed(look.outputs["Alpha"], build.add("ShaderNodeBsdfTransparent").outputs[0], shown)
+    tree.links.new(shown, output.inputs["Surface"])
     output.is_active_output, tree.nodes.active = True, look
-    told = add("ShaderNodeBsdfPrincipled", (200.0, -200.0), label="For USD")
+    for node in tree.nodes:
+        node.select = node == look
+    told = next(node for node in tree.nodes if node.label == FOR_USD)
     told.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     told.inputs["Roughness"].default_value = told.inputs["IOR"].default_value = 1.0
     told.inputs["Emission Strength"].default_value = 1.0
     tree.links.new(look.outputs["Color"], told.inputs["Emission Color"])
-    # what solid view shows by material
-    seen = texels[(texels > 0.0).any(axis=2)]
-    if len(seen):
-        material.diffuse_color = (*np.minimum(seen, 1.0).mean(axis=0), 1.0)
-    return material
+    if clear:
+        tree.links.new(look.outputs["Alpha"], told.inputs["Alpha"])
 
 
-def _put_apart(tree: bpy.types.NodeTree, add: Callable[..., bpy.types.Node], spot: bpy.types.Node,
-               apart: tuple[bpy.types.Image, bpy.types.Image]) -> None:
-    """Let Cycles and EEVEE show the first of two images, and the second on the faces that show what shines."""
-    where = add("ShaderNodeAttribute", (-350.0, 1000.0), attribute_name=SHINING)
-    both = add("ShaderNodeMix", (0.0, 500.0), data_type="RGBA")
-    # its sockets for numbers, vectors and colours bear the same names
-    tree.links.new(where.outputs["Fac"], both.inputs[0])
-    for image, row, socket in zip(apart, (500.0, 750.0), both.inputs[6:8]):
-        look = add("ShaderNodeTexImage", (-350.0, row), name=image.name, image=image, interpolation="Linear",
-                   extension="EXTEND")
-        tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
-        tree.links.new(look.outputs["Color"], socket)
-    for output in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL" and node.target != "ALL"]:
-        tree.links.new(both.outputs[2], output.inputs["Surface"])
+def _put_first(tree: bpy.types.NodeTree) -> None:
+    """Add the shader that USD's exporter is to find, before all others of its kinds."""
+    others = [node for node in tree.nodes if node.type in {"BSDF_PRINCIPLED", "BSDF_DIFFUSE"}]
+    tree.nodes.new("ShaderNodeBsdfPrincipled").label = FOR_USD
+    for node in others:
+        twin, name = copied([node], tree)[node], node.name
+        for socket, new in zip(node.inputs, twin.inputs):
+            for link in list(socket.links):
+                tree.links.new(link.from_socket, new)
+        for link in list(node.outputs[0].links):
+            tree.links.new(twin.outputs[0], link.to_socket)
+        # animation finds it by its name
+        tree.nodes.remove(node)
+        twin.name = name
 
 
-def texels_shown(material: bpy.types.Material) -> np.ndarray | None:
-    """What a material of light shows, (height, width, 3) float32; None where somebody has changed that."""
-    image = next(iter(images_of(material)), None)
-    if image is None or image.channels < 3 or not all(image.size):
-        return None
-    width, height = image.size
-    pixels = np.empty(width * height * image.channels, dtype=np.float32)
-    image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, -1)[..., :3]
+def _look_up(tree: bpy.types.NodeTree, image: bpy.types.Image) -> bpy.types.Node:
+    """Add nodes that look an image up by the UV map of light; discs have it as an attribute."""
+    spot = tree.nodes.new("ShaderNodeAttribute")
+    spot.attribute_name = UV_MAP
+    look = tree.nodes.new("ShaderNodeTexImage")
+    look.name, look.image, look.interpolation, look.extension = image.name, image, "Linear", "EXTEND"
+    tree.links.new(spot.outputs["Vector"], look.inputs["Vector"])
+    return look
+
+
+def _merged(name: str, mirror: Sequence[bpy.types.Material | None], whole: AllOrNothing
+            ) -> tuple[bpy.types.Material, list[bpy.types.Node | None]]:
+    """Return a new material with the nodes of all materials that have some, and the shader of each, or None."""
+    with_nodes = [one for one in mirror if one is not None and compat.uses_nodes(one)]
+    material = with_nodes[0].copy() if with_nodes else bpy.data.materials.new(name)
+    whole.undo(remove_new, material)
+    material.name = name
+    tree = compat.use_nodes(material)
+    if not with_nodes:
+        tree.nodes.clear()
+        tree.nodes.new("ShaderNodeOutputMaterial")
+    open_groups(tree)
+    _put_first(tree)
+    shader_of = {one: surface_shader(tree) for one in with_nodes[:1]} | copied_shaders(with_nodes[1:], tree)
+    return material, [shader_of.get(one) for one in mirror]

@@ -8,7 +8,6 @@ import bpy
 
 from ...core import View
 from .. import compat
-from ..baking import knows_mirror_normals, write_mirror_layers, write_mirror_normals
 from ..faults import AllOrNothing
 from ..lamps import ShownLamp, lamps_before
 from ..mirror_part import (
@@ -18,7 +17,10 @@ from ..mirror_part import (
     Surroundings,
     asks_for_places,
     copied_shaders,
+    knows_mirror_normals,
     write_later_tints,
+    write_mirror_layers,
+    write_mirror_normals,
 )
 from ..reading import mirrors_of
 from ..reading.materials import (
@@ -55,7 +57,8 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
     for result in results:
         mirror, faces = _mirror_materials(result), len(result.data.polygons) > 0
         around = Surroundings(tuple(mirrors_of(result)) if asks_for_places(mirror) else (),
-                              tuple(lamps_before(result, shown)), _later(result), not result.reflection_mesh.window,
+                              lamps_before(result.data, shown, mirrors_of(result)), _later(result),
+                              not result.reflection_mesh.window,
                               faces and knows_mirror_normals(result.data))
         asked: set = set()
         # a slot that has a material of its own has it from the user, and so what stands in place of what was made
@@ -71,9 +74,9 @@ def show_previews(results: Iterable[bpy.types.Object], view: View, shown: list[S
         if faces and asked & {NORMAL, OWN_NORMAL}:
             write_mirror_normals(result.data, view)
         if faces:
-            write_mirror_layers(result, view, asked)
+            write_mirror_layers(result.data, mirrors_of(result), view, asked)
         if around.later != LaterMirrors():
-            write_later_tints(result)
+            write_later_tints(result, result.data)
 
 
 def forget_previews() -> None:

@@ -57,10 +57,9 @@ class LaterMirrors:
         return build.mixed(build.add("ShaderNodeAttribute", attribute_name=LATER_UNKNOWN).outputs["Fac"], shown, clear)
 
 
-def write_later_tints(result: bpy.types.Object) -> None:
-    """Tell each corner of a result what they leave of the light, and each face whether that is all, by their materials
-    as these are now."""
-    mesh = result.data
+def write_later_tints(result: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
+    """Write what later mirrors leave of the light at each corner of a result's `mesh`, and on each face whether that is
+    all, by their materials as these are now."""
     left, unknown = np.ones((len(mesh.polygons), 3, 3)), np.zeros(len(mesh.polygons), dtype=bool)
     if LATER_MATERIAL.format(2) in mesh.attributes:
         bounces, tints = range(2, max(int(numbers(mesh, "bounces").max(initial=1)), 2) + 1), _tints(result)
@@ -70,7 +69,10 @@ def write_later_tints(result: bpy.types.Object) -> None:
         left[later] = MirrorColours(tints, np.arange(len(tints))).left(
             met[later], cosine[corners[later]].astype(np.float64))
         # those that are seen by no more have the last number
-        unknown = ~np.array(_is_whole(result) + [True])[met].all(axis=1)
+        whole = _is_whole(result)
+        unknown = ~np.array(whole + [True])[met].all(axis=1)
+        # faces of the world lie behind those, and show it by any of the mirrors
+        unknown |= (numbers(mesh, "source_object") < 0) & (not all(whole))
     _write(mesh, LATER_TINT, ("FLOAT_VECTOR", "CORNER", "vector"), left)
     _write(mesh, LATER_UNKNOWN, ("FLOAT", "FACE", "value"), unknown)
 

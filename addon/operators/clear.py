@@ -8,7 +8,7 @@ from ..frames import plays, stop_playing
 from ..illumination import bring_back_abandoned, bring_back_layers, forget_added_light
 from ..lighting import forget_light, forget_previews, update_mattes
 from ..reading import has_linked_results, is_result, named_by_selection, redraw_lines
-from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_mesh, forget_nodes, set_free
+from ..writing import close_abandoned_windows, disc_nodes, forget_collection, forget_nodes, set_free
 from . import polls
 
 IN_OBJECT_MODE = "Reflections are cleared in Object Mode: leave the present mode first."
@@ -18,7 +18,7 @@ LINKED_TO_CLEAR = ("The reflections are linked from another file: clear them in 
 
 
 def chosen_results(context: bpy.types.Context) -> list:
-    """The selected results, or those of selected mirrors; where the selection names none, all of the scene."""
+    """Return the selected results, or those of selected mirrors; all of the scene if the selection refers to none."""
     results = [obj for obj in context.scene.objects
                if is_result(obj) and obj.library is None]
     return named_by_selection(context, results) or results
@@ -31,7 +31,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
     mirror = active.reflection_mesh.mirror if active in results else None
     nodes = {disc_nodes(obj) for obj in results}
     lights = {obj.reflection_mesh.light_material for obj in results} - {None}
-    maps = {obj.reflection_mesh.light_map for obj in results} - {None}
     _set_free(context, results)
     # from here on nothing can fail, so that results go all or none
     if mirror is not None and mirror.name in layer.objects:
@@ -42,8 +41,6 @@ def clear(context: bpy.types.Context, results: list) -> None:
         forget_nodes(group)
     for material in lights:
         forget_light(material)
-    for mesh in maps:
-        forget_mesh(mesh)
     forget_previews()
     close_abandoned_windows()
     forget_collection(context.scene)
@@ -51,7 +48,8 @@ def clear(context: bpy.types.Context, results: list) -> None:
 
 
 def chosen_caustics(context: bpy.types.Context) -> tuple[list, bool]:
-    """The caustics that are selected or whose mirrors are, or all of the scene where none are; whether any are."""
+    """Return the caustics that are selected or whose mirrors are, else all of the scene; and True if any are selected.
+    """
     every = [obj for obj in context.scene.objects
              if obj.reflection_mesh.role == "CAUSTICS" and obj.library is None]
     named = named_by_selection(context, every)
@@ -89,7 +87,7 @@ def _remove(objects: list) -> None:
 
 
 def _set_free(context: bpy.types.Context, results: list) -> None:
-    """Let what the user has joined to results outlast them; of those that have one mesh, to one."""
+    """Keep objects that the user has joined to results. Of results with a shared mesh, keep them once."""
     with AllOrNothing() as whole:
         for obj in {obj.data: obj for obj in results if not plays(obj)}.values():
             set_free(context, obj, whole)

@@ -29,9 +29,9 @@ from ..settings import (
     SettingsOfMirrors,
     SettingsOptions,
     UsesSettings,
-    attributes_of,
     of_each,
     option,
+    written_of,
 )
 from ..standing import Kept, Stage
 from ..writing import MeshArrays, Reflection, mesh_arrays, nearer, point_arrays, what_is_in_the_way
@@ -74,9 +74,8 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
     core.ReflectionError
         Where the input cannot be reflected; its message is one sentence for the user.
     """
-    if context.mode != "OBJECT":
-        raise core.ReflectionError(IN_OBJECT_MODE)
     started = time.perf_counter()
+    _begin(context)
     yield 0.0, "Reading the scene"
     told, view = left_out(context, chosen), view or read_view(context)
     kept = Kept.of(depsgraph := context.evaluated_depsgraph_get())
@@ -113,8 +112,9 @@ def generation(context: bpy.types.Context, chosen: Participants, settings: core.
         written = partial(_written, result, scene, (surface, surfaces), view, lines)
         result, arrays = yield from part(core.in_steps(written), READING + (index + 1) * share, 0.0,
                                          f"{mirror.name}: Writing")
-        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution,
-                                   own[index].placement, attributes_of(settings, mirror, context.scene)))
+        prepared.append(Reflection(joint, context.scene.camera, sources, result, arrays, view.resolution, own[index],
+                                   *(written_of(settings, mirror, context.scene, name)
+                                     for name in ("attributes", "world_faces"))))
     if not prepared:
         raise NothingSeen(refused[0]) if unseen == refused else Refused(refused)
     kept.within(max(one.maximum_memory for one in own))
@@ -136,6 +136,13 @@ def _written(result: core.ReflectionMesh, scene: DiffuseScene, mirrors: tuple[Mi
     if lines:
         result = core.with_borders_closed(result, view, scene.mesh, scene.source_object)
     return result, mesh_arrays(result, scene, surface, view, every)
+
+
+def _begin(context: bpy.types.Context) -> None:
+    """Raise an error outside Object Mode; let the core use as many threads as renders do."""
+    if context.mode != "OBJECT":
+        raise core.ReflectionError(IN_OBJECT_MODE)
+    core.use_threads(context.scene.render.threads)
 
 
 def _with_faces(mirrors: list[Assembly], of_mirrors: list, placed: list) -> tuple[list, tuple, list[str]]:
@@ -161,7 +168,7 @@ def _unfit(context: bpy.types.Context, view: core.View, mirrors: list, sources: 
     """Return why light no longer fits, by the results of mirrors that have been lit; empty where it still does."""
     lit = [result for mirror in mirrors for result in every_result_of(context, mirror)
            if result.reflection_mesh.light_material is not None]
-    return {result: light_difference(context, view, result, sources) for result in lit}
+    return {result: light_difference(context, view, result, sources, same_view=False) for result in lit}
 
 
 def _record(outcome: Outcome, origins: dict, seconds: float) -> None:
@@ -194,6 +201,7 @@ class REFLECTION_MESH_OT_generate(UsesSettings, ProtectsResults, SteppedOperator
                                     description="Show the colors of the reflected objects, unaffected by lamps, until"
                                                 " the reflection is lit. On if a button is pressed")
     attributes: option("attributes")
+    world_faces: option("world_faces")
     join_parts: option("join_parts")
     collect: bpy.props.BoolProperty(name="In a Collection", default=False, options={"SKIP_SAVE"},
                                     description="Put a new result into the collection Reflections instead of the "

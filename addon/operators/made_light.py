@@ -1,110 +1,226 @@
-"""Light as it is made for reflections: of the picture by a render, on the objects by a bake."""
+"""The light of reflections: Cycles shades what they show, and they show that."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 
 import bpy
 import numpy as np
 
 from ...core import ReflectionError, View
-from ..baking import KeptMap, baked, can_be_baked, kept_map
-from ..faults import AllOrNothing, Steps, part
+from ..faults import AllOrNothing, Steps, part, still_there
+from ..freshness import light_difference, lit_with, why_light_differs
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
-    Window,
-    beside_lamps,
-    is_overexposed,
+    FROM_MIRROR,
+    FurtherMirrors,
+    KeptLight,
+    LightPaths,
+    Placed,
+    Unwrapped,
+    alone,
+    can_be_lit,
+    forget_light,
+    is_cut_out,
     is_plain,
-    light_scene,
-    make_denser,
-    needed_density,
+    lay_out,
+    light_record,
     new_export_image,
     new_image,
     new_material,
-    on_the_mirror,
-    paper_white_of,
-    pixel_kernel,
+    path_scene,
+    prepared,
+    remember,
+    render_paths,
+    show_as_cut_out,
     show_light,
-    show_object_light,
-    texels_of,
-    white_of,
+    straight,
+    unwrap,
+    write_colours,
 )
-from ..mirror_part import LaterMirrors, Surroundings, new_object_material
-from ..reading import is_opaque, mirrors_of, read_scene, seen_in
-from ..reading.materials import reflecting_materials
+from ..mirror_part import LaterMirrors, Surroundings
+from ..reading import has_fog, known_results, mirrors_of, vectors
+from ..reading.materials import is_opaque, reflecting_materials, surface_shaders
 from ..rendering import shown_while
+from ..writing import DISC_SCALE, images_of
 
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
+DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
+RIM = 4                 # texels around faces that go on as the faces do
+SMALL = 0.05            # of a disc's size
+MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
+NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
 
 
-def light_in_picture(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
-                     lamps_apart: bool) -> Steps[Callable[[], Steps[None]]]:
-    """Render what `lit` show of the picture; returns what lets them show it."""
-    window = Window.around(view, np.concatenate([on_the_mirror(result) for result in lit]))
-    if window is None:
+def light_results(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing,
+                  flat: bool = False) -> Steps[Callable[[], None]]:
+    """Render what `lit` show; return what lets them show it, by one picture alone if `flat`.
+
+    Raises
+    ------
+    ReflectionError
+        Where a mesh does not know what it shows, or the camera sees none of it.
+    """
+    _check(lit)
+    dense = DENSE if samples >= FEWEST else 1
+    placed = yield from _placed(lit, view, dense, whole)
+    yield 0.04, "Reading the reflection"
+    unwrapped = unwrap(list(placed.values()), view, dense)
+    fog = has_fog(context.scene)
+    paths = _paths(context, lit, unwrapped, fog)
+    yield 0.08, "Reading the reflection"
+    kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
+    with path_scene(context) as scene:
+        steps = render_paths(scene, kept.missing(paths).grown(RIM), samples // dense**2, True)
+        light = yield from shown_while(steps, 0.1, RENDERING)
+    light = kept.completed(light[..., :3], paths, RIM)
+    image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
+    clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
+    export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
+    whole.undo(bpy.data.batch_remove, [export_image])
+    # paths from the mirror on meet lamps themselves
+    lamps, spots = [] if fog else lamps_that_show(context), dict(zip(placed, unwrapped.spots))
+    first = {(result.reflection_mesh.mirror, result.data): result for result in reversed(lit)}
+    materials = {key: new_material(NAME, image, export_image, _mirror_materials(result),
+                                   _surroundings(result, placed[result.data].mesh, lamps), whole)
+                 for key, result in first.items()}
+    for key, result in first.items():
+        lay_out(placed[result.data].mesh, result, view, spots[result.data], materials[key])
+    matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
+    with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
+        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte, by_mirror=False)
+        seen = yield from shown_while(steps, 0.8, RENDERING)
+    if not clear:
+        seen[..., 3] = 1.0
+    yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
+    if is_cut_out(seen[..., 3][paths_seen.used]):
+        for material in materials.values():
+            show_as_cut_out(material)
+    seen = straight(seen)
+    for mesh, own in placed.items():
+        write_colours(own.mesh, spots[mesh], seen)
+    if flat:
+        plain = yield from _plain_material(lit, seen if clear else seen[..., :3], materials, whole)
+        materials = dict.fromkeys(materials, plain)
+    else:
+        remember(image, paths, kept.age)
+    told = light_record(view, unwrapped, dense)
+
+    def show() -> None:
+        for result in lit:
+            mesh = result.data
+            show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
+    return show
+
+
+def _placed(lit: list, view: View, dense: int, whole: AllOrNothing) -> Steps[dict[bpy.types.Mesh, Placed]]:
+    """Return a prepared copy of each mesh of the reflections."""
+    found: dict[bpy.types.Mesh, Placed] = {}
+    for result in lit:
+        if result.data not in found:
+            found[result.data] = yield from part(prepared(result, view, dense, whole), 0.0, 0.0)
+    return found
+
+
+def _surroundings(result: bpy.types.Object, mesh: bpy.types.Mesh, lamps: list) -> Surroundings:
+    mirrors = mirrors_of(result)
+    return Surroundings(tuple(mirrors), lamps_before(mesh, lamps, mirrors), LaterMirrors.of(result),
+                        not result.reflection_mesh.window)
+
+
+def _plain_material(lit: list, seen: np.ndarray, materials: dict, whole: AllOrNothing) -> Steps[bpy.types.Material]:
+    """Return a material that shows the finished picture (h, w, 3 or 4) alone, in place of `materials`."""
+    image = yield from part(new_image(NAME, seen, whole), 0.99, 0.01)
+    behind = Surroundings(behind=not all(result.reflection_mesh.window for result in lit))
+    for material in materials.values():
+        whole.after(forget_light, material)
+    return new_material(NAME, image, image, [None], behind, whole)
+
+
+def _paths(context: bpy.types.Context, lit: list, unwrapped: Unwrapped, fog: bool) -> LightPaths:
+    """Return the light path of each texel; with `fog` it begins at the mirror."""
+    shown = known_results(context.scene, context.view_layer)
+    paths = unwrapped.paths(FurtherMirrors.of([one for one in shown if one.reflection_mesh.role == "REFLECTION"], lit))
+    if not paths.used.any():
         raise ReflectionError("The camera sees none of the reflections: generate them again for this view.")
-    white = white_of(context.scene)
-    with light_scene(context, lit, window) as scene:
-        density = yield from shown_while(needed_density(scene, window, samples, white), 0.02, RENDERING)
-        make_denser(scene, window, density)
-        light = yield from shown_while(scene.light(samples, density), 0.04, RENDERING)
-        coverage, shining = yield from shown_while(scene.coverage(), 0.9, "Rendering the area of the reflections")
-    # what was clear for a while counts as changed only now
-    context.view_layer.update()
-    cycles = context.scene.cycles
-    kernel = pixel_kernel(cycles.pixel_filter_type, cycles.filter_width)
-    light, opacity = light[..., :3], light[..., 3] if scene.alone else None
-    paper_white = paper_white_of(context.scene)
-    # a part of a pixel is brighter where that is to be white
-    white *= density**2
-    texels = yield from part(texels_of(light, coverage, kernel, white, opacity), 0.93, 0.04)
-    image, apart = (yield from part(new_image(NAME, texels, whole), 0.97, 0.01)), None
-    if lamps_apart and is_overexposed(light, shining, paper_white):
-        # what shines ends where its faces do, however bright it is: between texels it could not
-        apart = []
-        for name, part_of in (("Matte", beside_lamps(coverage, shining, light, paper_white)), ("Shining", shining)):
-            found = yield from part(texels_of(light, part_of, kernel, white, opacity, name.upper()), 0.98,
-                                    0.005)
-            apart.append((yield from part(new_image(f"{NAME} {name}", found, whole), 0.985, 0.0)))
-    export_image = yield from part(new_export_image(f"{NAME} Export", texels, whole), 0.99, 0.01)
+    return replace(paths, lead=np.full_like(paths.lead, FROM_MIRROR)) if fog else paths
 
-    def show() -> Steps[None]:
-        material = new_material(NAME, image, export_image, texels, whole, apart)
+
+def _earlier_images(context: bpy.types.Context, lit: list, view: View, samples: int) -> list[bpy.types.Image]:
+    """Return pictures of light that these show, made with as many samples, since which the view alone has changed."""
+    return list(dict.fromkeys(
+        image for result in lit
+        if lit_with(result).get("samples", 0) >= samples and why_light_differs(context, result)
+        and not light_difference(context, view, result, [], same_view=False, same_mirror=True)
+        for image in images_of(result.reflection_mesh.light_material)))
+
+
+def _check(lit: list) -> None:
+    for result in lit:
+        if not can_be_lit(result):
+            raise ReflectionError(f"'{result.name}' does not know what it shows: set Attributes to All and generate it "
+                                  "again.")
+
+
+@contextmanager
+def _copies(scene: bpy.types.Scene, lit: list, placed: dict, materials: dict, matte: bool) -> Iterator[None]:
+    """Give a temporary scene copies of reflections with their light. The camera sees nothing else; nothing else is in
+    the scene if nothing about them is `matte`."""
+    everything, made = scene.collection, []
+    if matte:
+        rest = bpy.data.collections.new(NAME)
+        made.append(rest)
+        for obj in everything.objects:
+            rest.objects.link(obj)
+        everything.children.link(rest)
+        _hide_from_camera(scene.view_layers[0].layer_collection)
+    else:
+        scene.world = None
+        for one in list(everything.children):
+            everything.children.unlink(one)
+    for obj in list(everything.objects):
+        everything.objects.unlink(obj)
+    try:
+        shown = {key: alone(material) for key, material in materials.items()}
+        made += shown.values()
         for result in lit:
-            yield from show_light(result, material, view, window, whole)
-    return show
+            copy = result.copy()
+            made.append(copy)
+            copy.data = placed[result.data].mesh
+            if DISC_SCALE in copy.data.attributes:
+                copy.data = _with_small_discs(copy.data)
+                made.append(copy.data)
+            for slot in copy.material_slots:
+                slot.link, slot.material = "OBJECT", shown[result.reflection_mesh.mirror, result.data]
+            copy.visible_camera, copy.hide_render = True, False
+            everything.objects.link(copy)
+        yield
+    finally:
+        bpy.data.batch_remove(still_there(made))
 
 
-def light_on_objects(context: bpy.types.Context, lit: list, view: View, samples: int, whole: AllOrNothing
-                     ) -> Steps[Callable[[], Steps[None]]]:
-    """Bake the objects that `lit` show; returns what lets them show it."""
-    if not can_be_baked(lit):
-        raise ReflectionError("A reflection of points, or of objects that have been deleted, or one that knows only "
-                              "what is seen, has no light on objects: choose Light: Picture.")
-    is_seen = seen_in(context)
-    sources = [obj for obj in dict.fromkeys(entry.object for result in lit for entry in result.reflection_mesh.sources)
-               if is_seen(obj)]
-    scene = read_scene(context.evaluated_depsgraph_get(), sources)
-    light = yield from part(baked(context, lit, view, scene, samples), 0.02, 0.93)
-    image = yield from part(new_image(NAME, light.texels, whole), 0.95, 0.05)
-    # what was hidden for a while counts as changed only now
-    context.view_layer.update()
-    opaque, lamps = all(map(is_opaque, scene.materials)), lamps_that_show(context)
+def _with_small_discs(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
+    """Return a copy of a mesh of points whose discs do not hide the middles of others."""
+    copy = mesh.copy()
+    scales = vectors(copy, DISC_SCALE)
+    copy.attributes[DISC_SCALE].data.foreach_set("vector", (SMALL * scales).astype(np.float32).reshape(-1))
+    return copy
 
-    def show() -> Steps[None]:
-        light_map = kept_map(NAME, light.uv, light.frames)
-        whole.undo(bpy.data.meshes.remove, light_map)
-        for result in lit:
-            around = Surroundings(tuple(mirrors_of(result)), lamps_before(result, lamps),
-                                  LaterMirrors.of(result), not result.reflection_mesh.window)
-            material = new_object_material(NAME, image, _mirror_materials(result), opaque, around, whole)
-            yield from show_object_light(result, material, view, scene, KeptMap(light_map, light.sheets, light.dull),
-                                         whole)
-    return show
+
+def _hide_from_camera(layer: bpy.types.LayerCollection) -> None:
+    for child in layer.children:
+        child.indirect_only = True
+        _hide_from_camera(child)
 
 
 def _mirror_materials(result: bpy.types.Object) -> list[bpy.types.Material | None]:
-    """The materials of a result's mirror that reflect; None where all of the light is shown."""
+    """Return the materials of a result's mirror that reflect; None where all of the light is shown."""
     reflecting = reflecting_materials(mirrors_of(result))
     return [None if is_plain(one) else one for one in reflecting] if not all(map(is_plain, reflecting)) else [None]
+
+
+def _is_matte(material: bpy.types.Material) -> bool:
+    """Return True if lamps change what a material of light shows."""
+    return any(shader.type not in NOT_LIT for shader in surface_shaders(material.node_tree))

@@ -1,4 +1,4 @@
-"""What a reflection lacks, in sentences for the user: the bounds that it has hit, and what its probes have missed."""
+"""Sentences for the user on what a reflection lacks: limits that were reached, and objects that probes have missed."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -58,7 +58,7 @@ class Refused(ReflectionError):
         self.sentences = sentences
 
 
-# what is said if the result counts any of it; `share` is in per cent
+# sentences by the name of a count; shown if the count is not zero. `share` is in per cent.
 SENTENCES = {
     "crowded": "Dense areas were sampled at one ray per pixel ({share} % of this reflection). Raise Memory for exact "
                "outlines.",
@@ -75,7 +75,7 @@ SENTENCES = {
 
 
 def shortcomings(name: str, result: ReflectionMesh, materials: Sequence = ()) -> list[str]:
-    """Sentences on the reflection in the mirror `name` of objects with these materials."""
+    """Return sentences on the reflection in the mirror `name` of objects with these materials."""
     counts, told = result.counts, []
     if counts.get("missed", 0) >= MISSED and result.missing_share > MISSING:
         told.append(f"About {result.missing_share:.0f} % of what the mirror shows is missing: give it a clean mesh, or "
@@ -91,8 +91,9 @@ def too_close(result: ReflectionMesh, materials: Sequence) -> bool:
 
 
 def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
-    """A sentence where the reflection in the mirror `name` has more faces than the mirror has pixels, and could be made
-    of points."""
+    """Return a sentence if the reflection in the mirror `name` has more faces than the mirror has pixels, so that
+    points would be better.
+    """
     few = len(result.triangles) < max(MANY, result.counts.get("mirror_pixels", 0))
     if few or result.bounces.max() > 1:
         return []
@@ -101,16 +102,17 @@ def better_of_points(name: str, result: ReflectionMesh) -> list[str]:
 
 
 def bounds_hit(counts: dict, points: int = 0) -> list[str]:
-    """Sentences on the bounds that were hit, as counts tell them, of what has so many `points`; nothing on areas that
-    are too small to be seen."""
+    """Return sentences on limits that were reached, by `counts`, for a result of `points` points. Ignore areas that are
+    too small to be visible.
+    """
     shares = {"crowded": filled_share(counts), "coarse": 100.0 * counts.get("coarse", 0) / max(points, 1)}
     return [said.format(share=f"{shares.get(what, 0.0):.1f}") for what, said in SENTENCES.items()
             if counts.get(what) and shares.get(what, 100.0) >= WORTH_TELLING]
 
 
 def left_out(context: bpy.types.Context, chosen: Participants) -> list[str]:
-    """Sentences on what would take part, were it to be seen: it is hidden, has been deleted or taken out, or is a
-    mirror that catches shadows."""
+    """Return sentences on objects that would take part if they were visible, and on mirrors that are shadow catchers.
+    """
     there = set(context.scene.objects)
     return [f"Left out because it is hidden: '{obj.name}'." if obj in there else
             f"Left out because it is not in this scene: '{obj.name}'." for obj in chosen.hidden
@@ -118,7 +120,7 @@ def left_out(context: bpy.types.Context, chosen: Participants) -> list[str]:
 
 
 def rough_shortcomings(mirrors: list, surfaces: list[MirrorSurface]) -> list[str]:
-    """A sentence on those of the mirrors that are rough, since their reflections are sharp."""
+    """Return a sentence on mirrors that are rough, since their reflections are sharp."""
     found = []
     for mirror, surface in zip(mirrors, surfaces, strict=True):
         seen = [surface.materials[index] for index in np.unique(surface.material).tolist()]
@@ -129,26 +131,24 @@ def rough_shortcomings(mirrors: list, surfaces: list[MirrorSurface]) -> list[str
         return []
     name, roughness = found[0]
     if len(found) > 1:
-        return [f"{len(found)} mirrors are rough, '{name}' among them, and their reflections are sharp: only Light: "
-                "Picture blurs them as Cycles does."]
+        return [f"{len(found)} mirrors are rough, '{name}' among them, and their reflections are sharp, where Cycles' "
+                "are blurred."]
     if roughness == float("inf"):
-        return [f"The roughness of '{name}' is not known, and its reflection is sharp: only Light: Picture blurs it as "
-                "Cycles does."]
-    return [f"'{name}' has a roughness of {roughness:.2f}, and its reflection is sharp: only Light: Picture blurs it "
-            "as Cycles does."]
+        return [f"The roughness of '{name}' is not known, and its reflection is sharp, where Cycles' may be blurred."]
+    return [f"'{name}' has a roughness of {roughness:.2f}, and its reflection is sharp, where Cycles' is blurred."]
 
 
 def scene_shortcomings(context: bpy.types.Context, chosen: Participants, settings: SettingsOfMirrors) -> list[str]:
-    """Sentences on what renders of the scene show otherwise than reflections that were just generated: of what is
-    chosen still, before new objects are known."""
+    """Return sentences on how renders differ from the reflections that were just generated. Call it before new objects
+    are known.
+    """
     placements = [own.placement for own in map(of_each(settings), chosen.mirrors)]
     return (render_shortcomings(context, chosen.mirrors, chosen.diffuse)
             + blur_shortcomings(context.scene, placements))
 
 
 def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str]:
-    """Sentences on what a render blurs, or shows to two eyes, otherwise than a mirror would, of results with these
-    placements."""
+    """Return sentences on blur and stereo of a render that results with these placements do not follow."""
     camera = scene.camera
     focused = camera is not None and camera.type == "CAMERA" and camera.data.dof.use_dof
     on_mirrors = any(placement != "VIRTUAL" for placement in placements)
@@ -157,8 +157,9 @@ def blur_shortcomings(scene: bpy.types.Scene, placements: list[str]) -> list[str
 
 
 def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list) -> list[str]:
-    """Sentences on what renders show otherwise than viewports do, of which a reflection has what these show: meshes of
-    mirrors and diffuse objects, and what is hidden in the viewport alone; and on what has no mesh."""
+    """Return sentences on differences between renders and viewports, since a reflection shows the viewport: other
+    meshes, objects hidden in the viewport only, and objects without a mesh.
+    """
     told = other_meshes(context.scene, mirrors + diffuse) + _hidden(rendered_alone(context, mirrors, diffuse))
     told += [CUTS] * _cuts_unlocked(context, mirrors)
     told += [f"Renders show '{obj.name}' of the background set too, which no reflection shows: link it into this scene."
@@ -170,21 +171,22 @@ def render_shortcomings(context: bpy.types.Context, mirrors: list, diffuse: list
 
 
 def _has_linked_result(context: bpy.types.Context, mirror: bpy.types.Object) -> bool:
-    """Whether a reflection that is linked from another file lies on a mirror, in sight."""
+    """Return True if a visible reflection on the mirror is linked from another file."""
     return any(obj.library is not None and mirror in mirrors_of(obj) and obj.visible_get() and is_result(obj)
                for obj in known_results(context.scene, context.view_layer))
 
 
 def _cuts_unlocked(context: bpy.types.Context, mirrors: list) -> bool:
-    """Whether markers cut between cameras that have results of their own, and a render does not wait for these to be
-    exchanged."""
+    """Return True if markers switch between cameras with results of their own, but the interface is not locked during
+    renders, so that results cannot be exchanged.
+    """
     bound = {marker.camera for marker in context.scene.timeline_markers} - {None}
     return not context.scene.render.use_lock_interface and any(
         len(bound & {camera_of(result) for result in every_result_of(context, mirror)}) > 1 for mirror in mirrors)
 
 
 def other_meshes(scene: bpy.types.Scene, objects: list) -> list[str]:
-    """A sentence on objects of which renders of the scene show another mesh than viewports."""
+    """Return a sentence on objects whose mesh in renders differs from the viewport's."""
     found = [(obj.name, why) for obj in objects if (why := rendered_otherwise(scene, obj))]
     if not found:
         return []
@@ -206,7 +208,7 @@ def _hidden(found: list) -> list[str]:
 
 
 def window_shortcomings(joint: Assembly, found: InTheWay) -> list[str]:
-    """Sentences on the window that a mirror, or the parts of one, are to be.
+    """Return sentences on the window that a mirror, or the parts of one, will be.
 
     Raises
     ------

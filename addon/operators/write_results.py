@@ -10,16 +10,18 @@ from ..faults import AllOrNothing, listed, one_or_more
 from ..frames import stop_playing
 from ..lamps import lamps_before, lamps_that_show
 from ..lighting import (
+    can_be_lit,
     forget_previews,
     is_lit,
     keep_light,
     lacks_mattes,
     needs_light,
     show_previews,
+    show_world,
     shows_preview,
     update_mattes,
 )
-from ..reading import DiffuseScene, results_of
+from ..reading import DiffuseScene, mirrors_of, results_of
 from ..writing import (
     Reflection,
     gather,
@@ -38,18 +40,18 @@ CUT = "it shows other faces"
 
 @dataclass(frozen=True)
 class Manners:
-    """How results are written and handed over, besides the method.
+    """Options for writing results, besides the method.
 
     Attributes
     ----------
     collect : bool
-        New ones go into the scene's collection of results, instead of beside their mirrors.
+        Put new results into the scene's collection of results instead of beside their mirrors.
     preview_unlit : bool
-        Those that lose their light show a preview, instead of materials on which lamps fall.
-    preview : bool
-        So do all that are not lit.
+        Results that lose their light show a preview instead of materials that lamps light.
     protect : bool
-        Clicks pass by results, and their transforms are locked.
+        Make results unselectable and lock their transforms.
+    preview : bool
+        All results without light show a preview.
     """
 
     collect: bool = False
@@ -60,26 +62,26 @@ class Manners:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a generation made.
+    """The outcome of a generation.
 
     Attributes
     ----------
     results : list of (bpy.types.Object, core.ReflectionMesh)
-        Of each mirror.
+        One for each mirror.
     remarks : list of str
         Sentences on what was left out or lost.
     unlit : list of bpy.types.Object
-        Those of which the light is still to come.
+        Results that must still be lit.
     news : list of str
-        Sentences on what else is good to know.
+        Sentences on other things worth knowing.
     copies : list of bpy.types.Object
-        Of results, which the user made and which were updated with them.
+        The user's copies of results, updated with them.
     dropped : list of str
-        Sentences on the results whose light was taken away, since it no longer fits.
+        Sentences on results whose light was removed because it no longer fits.
     lacks : list of str
-        Those of the sentences that say what a mirror lacks, be it all of its result, though something is seen in it.
+        Sentences on what a mirror lacks although something is visible in it.
     read : tuple
-        From what: the view, the surface of each mirror, the diffuse scene.
+        Inputs: the view, the surface of each mirror, the diffuse scene.
     """
 
     results: list
@@ -92,7 +94,7 @@ class Outcome:
     read: tuple = ()
 
     def summary(self, seconds: float) -> str:
-        """One line on what was generated."""
+        """Return one line on what was generated."""
         points = sum(obj.reflection_mesh.points for obj, _ in self.results)
         faces = sum(obj.reflection_mesh.faces for obj, _ in self.results)
         size = (one_or_more(points, "1 point", "{count} points") if points
@@ -118,14 +120,19 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
         written = [write_object(context, made, whole) for made in prepared]
         for made, group in zip(prepared, written):
             for entry in group:
-                if entry.obj.reflection_mesh.light_material is not None and not unfit.get(entry.obj):
-                    keep_light(entry.obj, view, scene)
                 remarks += put_back_materials(entry.obj, made.arrays.materials, entry.changes)
                 whole.after(stop_playing, entry.obj)
+        keep_light([entry.obj for group in written for entry in group if not unfit.get(entry.obj)], view,
+                   whole)
         results = [(group[0].obj, made.result) for group, made in zip(written, prepared)]
         entries = [entry for group in written for entry in group]
         unlit = [entry.obj for entry in entries
-                 if not is_lit(entry.obj) and (needs_light(entry.obj) or lamps_before(entry.obj, lamps))]
+                 if not is_lit(entry.obj) and (needs_light(entry.obj)
+                                               or lamps_before(entry.obj.data, lamps, mirrors_of(entry.obj)))]
+        # reflections of one mirror share their mesh
+        for obj in {obj.data: obj for obj in (entry.obj for entry in entries)}.values():
+            if obj.reflection_mesh.world_faces == "ALWAYS" and not is_lit(obj) and can_be_lit(obj):
+                show_world(obj, view, context.scene.world, whole)
         show_previews([obj for obj in unlit if manners.preview or obj in previewed], view, lamps, whole)
         if manners.collect:
             gather(context, [obj for obj, _ in results if obj not in there], whole)
@@ -143,7 +150,7 @@ def write_results(context: bpy.types.Context, prepared: list[Reflection], view: 
 
 
 def _told(written: list) -> list[str]:
-    """Sentences on results that the user had moved, and on the copies that were made of them."""
+    """Return sentences on results that the user had moved, and on their copies."""
     moved = [entry.obj.name for entry in written if entry.changes.moved is not None and not entry.copy]
     news = [sentence for entry in written for sentence in told_of(entry.obj, entry.freed)]
     news += [f"'{name}' stays moved, as you left it: clear it and generate again to have it on its mirror."

@@ -58,7 +58,7 @@ def _scene_plots(scene: Scene, styles: dict) -> list[tuple[str, str, str]]:
     for name, forward in (("stages", True), ("stages_others", False)):
         # a forward method says how long it takes without being drawn
         bars = [(f"{run.title}: {run.value:g}" if run.knob else run.title, run.seconds) for run in _one_each(scene.runs)
-                if run.total > 0.0 and forward == bool({"cameras", "solve"} & set(run.seconds))]
+                if run.total > 0.0 and forward == bool({"cameras", "rays", "solve"} & set(run.seconds))]
         plots.append((name, bar_plot(bars, "s") if bars else "", "Time by stage, as shares of each setting's own time, "
                       "which stands at the end; of each method the middle one of its settings."))
     return plots

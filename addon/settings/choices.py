@@ -1,4 +1,4 @@
-"""What can be chosen: the entries of lists, as artists read them. The numbers are those that files hold."""
+"""Entries of the enumerated settings, as artists read them. Files store the numbers."""
 
 PLACEMENTS = (
     ("LAYERED", "Layered", "Just in front of the mirror, with near images in front of far ones",
@@ -15,15 +15,13 @@ METHODS = (
     ("POINTS", "Points", "A small disc for each vertex that the mirror shows, for dense scans with triangles smaller "
                          "than a pixel", 2),
 )
+WORLD_FACES = (
+    ("NEVER", "Never", "None: the mirror itself shows the world, and has to be rendered", 0),
+    ("LIT", "When Lit", "Light Reflection adds them, so that no engine has to trace the mirror", 1),
+    ("ALWAYS", "Always", "Generate Reflection adds them too", 2),
+)
 ATTRIBUTES = (
     ("ALL", "All", "Position on the mirror and on the reflected object, path length and reflected face, for light on "
                    "objects, comparisons and shaders", 0),
     ("SHOWN", "Shown", "Only positions, materials and the attributes that materials use. About a third smaller", 1),
-)
-LIGHTS = (
-    ("AUTO", "Automatic", "Objects if the camera or a mirror is animated and few objects are reflected, otherwise "
-                          "Picture", 0),
-    ("PICTURE", "Picture", "An image of the mirrors as Cycles renders them, right for this view only", 1),
-    ("OBJECTS", "Objects", "Images baked on the reflected objects, right while the camera and mirrors move. Gloss "
-                           "stays as it is seen from here", 2),
 )

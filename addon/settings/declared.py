@@ -3,42 +3,42 @@ from __future__ import annotations
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from .choices import ATTRIBUTES, LIGHTS, METHODS, PLACEMENTS
+from .choices import ATTRIBUTES, METHODS, PLACEMENTS, WORLD_FACES
 
-SAMPLES = 64    # of light, per pixel
-# what a reflection is made by, and how it is lit
+SAMPLES = 64    # samples of light per pixel
+# settings of the geometry and of the light
 SETTINGS = ("tolerance", "placement", "method", "depth", "memory", "hidden_faces")
-LIGHT_SETTINGS = ("light_samples", "light_kind")
-# what is written of it; a result remembers what it has
-WRITTEN_SETTINGS = ("attributes", "join_parts")
+LIGHT_SETTINGS = ("light_samples",)
+# settings of the written object; a result remembers its own
+WRITTEN_SETTINGS = ("attributes", "world_faces", "join_parts")
 
 
 def declared(names: tuple[str, ...], **more) -> dict:
-    """The properties of the settings that are named, none of them animatable, for a class's annotations.
+    """Return the properties of the named settings, which are not animatable, as annotations of a class.
 
     Parameters
     ----------
     more
-        What else is asked of each property: `options`, `override`.
+        Further arguments of each property: `options`, `override`.
     """
     more = {"options": set(), **more}
     return {name: KINDS[name](**{**VALUES[name], **more}) for name in names}
 
 
 def option(setting: str, /, **more):
-    """A setting as the option of an operator, that its last run does not remember: the file does.
+    """Return a setting as an option of an operator. Its last value is not remembered, since the file holds it.
 
     Parameters
     ----------
     more
-        What differs for this operator.
+        Arguments that differ for this operator.
     """
     return KINDS[setting](**{**VALUES[setting], "options": {"SKIP_SAVE"}, **more})
 
 
 KINDS = {"tolerance": FloatProperty, "placement": EnumProperty, "method": EnumProperty, "depth": IntProperty,
          "memory": FloatProperty, "hidden_faces": BoolProperty, "light_samples": IntProperty,
-         "light_kind": EnumProperty, "attributes": EnumProperty, "join_parts": BoolProperty}
+         "attributes": EnumProperty, "world_faces": EnumProperty, "join_parts": BoolProperty}
 VALUES = {
     "tolerance": {"name": "Tolerance", "default": 0.5, "min": 0.01, "soft_max": 8.0, "max": 1000.0, "precision": 2,
                   "subtype": "PIXEL",
@@ -47,8 +47,9 @@ VALUES = {
                   "description": "Position of the reflection's geometry"},
     "method": {"name": "Made Of", "items": METHODS, "default": "GENERAL",
                "description": "Type of the reflection's geometry"},
-    "depth": {"name": "Bounces", "default": 1, "min": 1, "soft_max": 4, "max": 16,
-              "description": "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors"},
+    "depth": {"name": "Bounces", "default": 0, "min": 0, "soft_max": 4, "max": 16,
+              "description": "Number of reflections from mirror to mirror. 0 is automatic: as many as there are to "
+                             "see. With 1, mirrors do not show other mirrors"},
     "memory": {"name": "Memory (GB)", "default": 2.0, "min": 0.1, "soft_max": 64.0, "precision": 1,
                "description": "Memory that the computation may use. What needs more is computed more coarsely or "
                               "refused"},
@@ -57,9 +58,11 @@ VALUES = {
                                     "later. Faces behind transparent faces are always kept"},
     "light_samples": {"name": "Light Samples", "default": SAMPLES, "min": 1, "soft_max": 4096,
                       "description": "Number of light paths for each pixel of the mirrors. The light is denoised"},
-    "light_kind": {"name": "Light", "items": LIGHTS, "default": "AUTO", "description": "Where the light is stored"},
     "attributes": {"name": "Attributes", "items": ATTRIBUTES, "default": "ALL",
                    "description": "Attributes that are stored in the reflection's mesh"},
+    "world_faces": {"name": "World Faces", "items": WORLD_FACES, "default": "LIT",
+                    "description": "Faces that show the world, and what is left after the last bounce, so that the "
+                                   "reflection covers its mirror"},
     "join_parts": {"name": "Join Parts", "default": True,
                    "description": "Mirrors that have one topmost parent share one reflection; a mirror with settings "
                    "of its own, or with a reflection already, keeps its own"},

@@ -1,4 +1,4 @@
-"""Which settings hold: what was given to an operator or a verb, over those that the file holds."""
+"""Combine the settings given to an operator or a command with those in the file, which they override."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -15,29 +15,29 @@ SettingsOfMirrors = Callable[[bpy.types.Object], Settings]
 
 @dataclass(frozen=True)
 class Wanted:
-    """The settings of each mirror: call it with one; with None it tells those of mirrors without their own.
+    """The settings of each mirror. Call it with a mirror, or with None for mirrors without their own settings.
 
     Attributes
     ----------
     scene : bpy.types.Scene
     given : dict
-        By the names of settings: what stands above scene and mirrors.
+        Settings by name that override scene and mirrors.
     """
 
     scene: bpy.types.Scene
     given: dict = field(default_factory=dict)
 
     def value(self, mirror: bpy.types.Object | None, name: str):
-        """One setting of a mirror."""
+        """Return one setting of a mirror."""
         return self.given[name] if name in self.given else getattr(holder_of(mirror, self.scene), name)
 
     def __call__(self, mirror: bpy.types.Object | None) -> Settings:
-        """The settings of a mirror.
+        """Return the settings of a mirror.
 
         Raises
         ------
         ReflectionError
-            Where one of them cannot be.
+            If a value is invalid.
         """
         values = {"maximum_memory" if name == "memory" else name: self.value(mirror, name) for name in SETTINGS}
         try:
@@ -47,24 +47,23 @@ class Wanted:
             raise ReflectionError(str(error).replace("maximum_memory", "memory")) from error
 
     def samples(self, mirrors: Iterable) -> int:
-        """Of light that is rendered once for all of these mirrors: the most that one of them asks for."""
+        """Return the samples of light that is rendered once for all these mirrors: the largest number among them."""
         return max((self.value(mirror, "light_samples") for mirror in mirrors),
                    default=self.value(None, "light_samples"))
 
-    def lights(self, results: Iterable) -> list[tuple[list, int, str]]:
-        """Results in groups that are lit alike: (results, samples, kind)."""
+    def lights(self, results: Iterable) -> list[tuple[list, int]]:
+        """Group results that are lit alike: (results, samples)."""
         groups: dict = {}
         for result in results:
             mirror = result.reflection_mesh.mirror
-            groups.setdefault((self.value(mirror, "light_samples"), self.value(mirror, "light_kind")),
-                              []).append(result)
-        return [(group, *chosen) for chosen, group in groups.items()]
+            groups.setdefault(self.value(mirror, "light_samples"), []).append(result)
+        return [(group, samples) for samples, group in groups.items()]
 
 
-def attributes_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """What the points and faces of a mirror's reflection are to know."""
-    return settings.value(mirror, "attributes") if isinstance(settings, Wanted) else \
-        holder_of(mirror, scene).attributes
+def written_of(settings: Settings | SettingsOfMirrors, mirror: bpy.types.Object, scene: bpy.types.Scene,
+               name: str) -> str:
+    """Return a setting of what is written of a mirror's reflection, one of `WRITTEN_SETTINGS`."""
+    return settings.value(mirror, name) if isinstance(settings, Wanted) else getattr(holder_of(mirror, scene), name)
 
 
 def joins(settings: Settings | SettingsOfMirrors, scene: bpy.types.Scene, mirror: bpy.types.Object) -> bool:
@@ -75,7 +74,7 @@ def joins(settings: Settings | SettingsOfMirrors, scene: bpy.types.Scene, mirror
 
 
 def of_each(settings: Settings | SettingsOfMirrors) -> SettingsOfMirrors:
-    """Settings that are the same for all mirrors as those of each."""
+    """Return settings that are equal for all mirrors as a function of the mirror."""
     return settings if callable(settings) else lambda mirror: settings
 
 
@@ -91,12 +90,12 @@ class UsesSettings:
     uses = SETTINGS
 
     def wanted(self, context: bpy.types.Context) -> Wanted:
-        """What the options say over the file."""
+        """Return the settings, with the given options over those of the file."""
         return Wanted(context.scene, {name: getattr(self, option) for name, option in self._options()
                                       if self._is_given(option)})
 
     def show_used(self, wanted: Wanted, mirrors: Iterable = ()) -> None:
-        """Set the options that were not given to what is used, that of the active mirror where they differ."""
+        """Show the used values in options that were not given; those of the active mirror if mirrors differ."""
         mirrors = list(mirrors)
         active = bpy.context.view_layer.objects.active
         shown = active if active in mirrors else next(iter(mirrors), None)

@@ -1,5 +1,7 @@
 """Arrays as Blender's data: meshes, points, the objects that carry them, windows, and records of the making."""
 from .arrays import (
+    ARRIVAL,
+    DISC_SCALE,
     LATER_COSINE,
     LATER_MATERIAL,
     MOST_UV_MAPS,
@@ -43,7 +45,8 @@ from .write_object import (
     write_object,
 )
 
-__all__ = ["Attribute", "Builder", "Edges", "FIELDS", "InTheWay", "LATER_COSINE", "LATER_MATERIAL", "LONGEST_RECORD",
+__all__ = ["ARRIVAL", "Attribute", "Builder", "DISC_SCALE", "Edges", "FIELDS", "InTheWay", "LATER_COSINE",
+           "LATER_MATERIAL", "LONGEST_RECORD",
            "MOST_UV_MAPS", "MeshArrays", "NORMAL", "PREVIEW", "RAYS", "Reflection", "UV_MAP", "Written", "applied_to",
            "as_shown", "close_abandoned_windows", "disc_nodes", "edges_that_stray", "forget_collection",
            "forget_landmarks", "forget_mesh", "forget_nodes", "forget_unblurred", "gather", "halve_edges",

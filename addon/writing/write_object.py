@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ...core import ReflectionMesh
+from ...core import ReflectionMesh, Settings
 from ..faults import AllOrNothing, keep_data, keep_mirror, keep_object, still_there
 from ..reading import Assembly, every_result_of, results_of
 from .arrays import MeshArrays
@@ -23,25 +23,27 @@ RAYS = ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_vo
 
 @dataclass(frozen=True)
 class Reflection:
-    """What is to be written for one mirror.
+    """The result for one mirror, before it is written.
 
     Attributes
     ----------
     joint : Assembly
-        The mirror, or the parts that are one.
+        The mirror, or the parts of a joined one.
     camera : bpy.types.Object
-        That it is right for.
+        The camera for which the result is right.
     sources : list of bpy.types.Object
-        What is reflected in it, and then what is hidden at the moment.
+        The reflected objects, followed by those that are hidden at the moment.
     result : core.ReflectionMesh
     arrays : MeshArrays
-        The same, to be written.
+        The arrays of `result` to write.
     resolution : (int, int)
-        Of the picture that it was made for.
-    placement : str
-        Where it lies; VIRTUAL makes a window of the mirror.
+        Size in pixels of the picture that it was made for.
+    settings : core.Settings
+        Settings of the generation. The placement VIRTUAL makes a window of the mirror.
     attributes : {'ALL', 'SHOWN'}
-        What of the arrays is written.
+        Attributes of the arrays to write.
+    world_faces : {'NEVER', 'LIT', 'ALWAYS'}
+        Condition for faces that show the world.
     """
 
     joint: Assembly
@@ -50,8 +52,9 @@ class Reflection:
     result: ReflectionMesh
     arrays: MeshArrays
     resolution: tuple[int, int]
-    placement: str
+    settings: Settings
     attributes: str = "ALL"
+    world_faces: str = "LIT"
 
     @property
     def mirror(self) -> bpy.types.Object:
@@ -61,8 +64,9 @@ class Reflection:
 
 @dataclass(frozen=True)
 class Written:
-    """A result that was written: `obj`, what the user had changed on it, whether it is a copy of another one, and what
-    was joined to it, as an object again."""
+    """A written result: its object `obj`, the user's changes of it, `copy` (True for a copy of another result), and the
+    object `freed` that holds parts which the user had joined to it.
+    """
 
     obj: bpy.types.Object
     changes: Changes
@@ -71,10 +75,10 @@ class Written:
 
 
 def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothing) -> list[Written]:
-    """The reflection in a mirror as an object: a new one, or the one that the mirror already has for the scene's
-    camera, updated in place, and with it the copies that the user has made of it.
+    """Write the reflection in a mirror into an object: a new one, or the mirror's result for the scene's camera, which
+    is updated in place together with the user's copies of it.
 
-    Where something fails, be it at a later object, `whole` takes back all that is changed here.
+    If something fails, even at a later object, `whole` undoes all changes made here.
 
     Returns
     -------
@@ -87,7 +91,7 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
     if not earlier:
         obj = new_object(context, made.joint, whole)
         _fill(obj, made, whole, Changes(None, [], []), obj.data)
-        set_window(obj, made.placement)
+        set_window(obj, made.settings.placement)
         return [Written(obj, Changes(None, [], []), False)]
     active = context.view_layer.objects.active
     # the active one first
@@ -106,20 +110,20 @@ def write_object(context: bpy.types.Context, made: Reflection, whole: AllOrNothi
         else:
             keep_data(obj, whole)
         _fill(obj, made, whole, entry.changes, None if linked else obj.data)
-        set_window(obj, made.placement)
+        set_window(obj, made.settings.placement)
     whole.after(forget_mesh, shared)
     return written
 
 
 def forget_mesh(mesh: bpy.types.Mesh) -> None:
-    """Remove a mesh that nothing shows any more."""
+    """Remove a mesh that has no users any more."""
     if still_there([mesh]) and not mesh.users and mesh.library is None:
         bpy.data.meshes.remove(mesh)
 
 
 def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes: Changes,
           mesh: bpy.types.Mesh | None) -> None:
-    """Write a result: its mesh, where it has one of its own, its place and its record."""
+    """Write a result: its mesh, if it has one of its own, its transform and its record."""
     _remember(obj, made)
     show_own_materials(obj)
     if obj.data.shape_keys is not None:
@@ -138,8 +142,9 @@ def _fill(obj: bpy.types.Object, made: Reflection, whole: AllOrNothing, changes:
 
 
 def new_object(context: bpy.types.Context, joint: Assembly, whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh, beside the mirror, that rays other than the camera's do not meet, and a hole where
-    the mirror is one; its name tells its camera where the mirror has results for others."""
+    """Create an object with an empty mesh beside the mirror, visible to camera rays only. It is a holdout if the mirror
+    is one. Its name contains the camera if the mirror has results for other cameras.
+    """
     camera = context.scene.camera.name if every_result_of(context, joint.mirror) else ""
     obj = new_beside(context, result_name(joint.mirror, camera), joint.members[0], whole)
     for rays in RAYS:
@@ -152,8 +157,9 @@ def new_object(context: bpy.types.Context, joint: Assembly, whole: AllOrNothing)
 
 
 def result_name(mirror: bpy.types.Object, told_by: str) -> str:
-    """What a result is called, and by what it is told from others of its mirror: so much of the mirror's long name that
-    Blender, which cuts the end, leaves the rest."""
+    """Return the name of a result of `mirror` with the suffix `told_by`. The mirror's name is shortened so that
+    Blender, which cuts the end of long names, does not cut the suffix.
+    """
     end = f" Reflection {told_by}".rstrip()
     longest = bpy.types.ID.bl_rna.properties["name"].length_max - 1
     kept = max(longest - len(end.encode()), longest // 3)
@@ -162,7 +168,7 @@ def result_name(mirror: bpy.types.Object, told_by: str) -> str:
 
 def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
                whole: AllOrNothing) -> bpy.types.Object:
-    """An object with an empty mesh beside another."""
+    """Create an object with an empty mesh beside another object."""
     mesh = bpy.data.meshes.new(name)
     whole.undo(bpy.data.meshes.remove, mesh)
     obj = bpy.data.objects.new(name, mesh)
@@ -178,7 +184,8 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     remember_parts(record, made.joint)
     record.camera = made.camera
     bring_back(obj)
-    record.attributes = made.attributes
+    record.attributes, record.hidden_faces = made.attributes, made.settings.hidden_faces
+    record.bounces, record.world_faces = made.settings.depth, made.world_faces
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source
@@ -191,7 +198,7 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
 
 
 def remember_parts(record: bpy.types.PropertyGroup, joint: Assembly) -> None:
-    """Let a result know the objects that its mirror is joined from."""
+    """Record the objects that a result's mirror is joined from."""
     record.parts.clear()
     for part in joint.members if joint.is_joined else ():
         record.parts.add().object = part
@@ -203,7 +210,7 @@ def _count(obj: bpy.types.Object, made: Reflection) -> None:
 
 
 def show_own_materials(obj: bpy.types.Object) -> None:
-    """Let an object show the materials of its mesh, and none of its own."""
+    """Make an object show the materials of its mesh instead of its own."""
     for slot in obj.material_slots:
         if slot.link == "OBJECT":
             # first, since a slot that goes keeps what it held counted as used

@@ -1,4 +1,4 @@
-"""The way through the house, from a lamp: the reflection that it sees, turned into light on what it shows."""
+"""The pipeline for caustics: the reflection that a lamp sees, turned into light on the receivers."""
 from __future__ import annotations
 
 from collections.abc import Generator
@@ -24,14 +24,14 @@ from .slivers import Stitched, without_slivers
 
 DETAIL = 1024
 """Pixels across the mirror in the lamp's picture, in which the settings' tolerance is counted."""
-LEAST = 1.5e-5  # of the flux of all of a lamp: what carries less is not split
-FINEST = 2e-3  # of the size of what is lit: shorter sides are not split
+LEAST = 1.5e-5  # share of a lamp's whole flux: faces that carry less are not split
+FINEST = 2e-3  # share of the lit region's size: shorter sides are not split
 AT_ONCE = 1 << 14
 
 
 def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings: Settings = Settings(),
              mirrors: TriangleMesh | None = None, blockers: TriangleMesh | None = None) -> CausticMesh:
-    """The light of a lamp that a mirror throws on receivers.
+    """Compute the caustics that a mirror casts on receivers from the light of a lamp.
 
     Parameters
     ----------
@@ -39,14 +39,14 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     mirror : TriangleMesh
         In world space, with shading normals. Two-sided.
     receivers : TriangleMesh
-        In world space; they hide each other, exactly, and cast shadows on the mirror.
+        In world space. They occlude each other exactly, and cast shadows on the mirror.
     settings : Settings
-        The tolerance, in pixels of a picture 1024 wide of the mirror from the lamp; the depth; bounds. Other settings
-        say nothing here.
+        The tolerance, in pixels of a picture of the mirror from the lamp, 1024 pixels wide; the depth; the limits.
+        Other settings are ignored.
     mirrors : TriangleMesh, optional
-        Other mirrors: they hide, shade, and from a depth of two on throw the light on.
+        Other mirrors. They occlude light, and from a depth of two on they reflect it.
     blockers : TriangleMesh, optional
-        What else hides and shades, without being lit.
+        Other occluders, which receive no light.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     Raises
     ------
     ReflectionError
-        Where the mirror or the receivers are empty, the lamp lies on the mirror, or does not see it.
+        If the mirror or the receivers are empty, the lamp lies on the mirror, or does not see it.
 
     Examples
     --------
@@ -75,6 +75,8 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
     must_be(blockers, (TriangleMesh, type(None)), "The blockers must be one TriangleMesh; join them or leave them out.")
     if isinstance(mirror, TriangleMesh) and len(mirror.triangles) and not mirror.face_normals().any():
         raise NothingInView(NO_AREA)
+    # automatic depth means one bounce here: later bounces carry little light
+    settings = replace(settings, depth=settings.depth or 1)
     corner = far_corner(mirror) if isinstance(mirror, TriangleMesh) and len(mirror.triangles) else None
     if corner is None:
         return _near_origin(lamp, mirror, receivers, settings, mirrors, blockers)
@@ -87,7 +89,7 @@ def caustics(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings
 def caustic_steps(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, settings: Settings = Settings(),
                   mirrors: TriangleMesh | None = None, blockers: TriangleMesh | None = None
                   ) -> Generator[tuple[float, str], None, CausticMesh]:
-    """`caustics` in steps, as `reflection_steps` yields them.
+    """Run `caustics` as a generator that yields like `reflection_steps` and returns the `CausticMesh`.
 
     Examples
     --------
@@ -105,7 +107,7 @@ def _near_origin(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, sett
                  mirrors: TriangleMesh | None, blockers: TriangleMesh | None) -> CausticMesh:
     body, scene, standing = (TriangleMesh.joined([mesh for mesh in meshes if mesh is not None]) for meshes in (
         (mirror, mirrors), (receivers, blockers), (receivers, blockers, mirrors)))
-    # on its way light may end at other mirrors too
+    # from two bounces on, a ray segment may also end at a mirror
     ends = receivers if settings.depth == 1 else TriangleMesh.joined((receivers, body))
     screens, shades = screens_of(body, ends, scene), shades_of(lamp, mirror, standing)
     settings = replace(settings, hidden_faces=True, method="GENERAL", placement="SURFACE")
@@ -122,7 +124,11 @@ def _near_origin(lamp: Lamp, mirror: TriangleMesh, receivers: TriangleMesh, sett
 
 
 def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: Settings) -> list[tuple]:
-    """The light of one view's faces, of each bounce for itself."""
+    """Compute the light of one view's faces.
+
+    `seen` is the reflection in the lamp's view. Return one tuple (faces, flux, reflection, bounce, receivers) for each
+    bounce.
+    """
     lit = []
     view = seen.maps[0].view
     sent = seen.mirror_position[seen.triangles]
@@ -146,7 +152,7 @@ def _light(lamp: Lamp, seen: ReflectionMesh, receivers: TriangleMesh, settings: 
 
 def _faces(ray_map: ReflectionMap, seen: ReflectionMesh, stitched: Stitched, receivers: TriangleMesh,
            lamp: Lamp) -> LitFaces:
-    assert seen.map_face is not None  # a lamp's view tells it
+    assert seen.map_face is not None  # reflections in a `LampView` have it
     triangles, face = stitched.triangles, seen.map_face[stitched.origin]
     source, points = seen.source_face[stitched.origin], seen.reflected_position.T
     normal, parts = receivers.face_normals()[source].T, []

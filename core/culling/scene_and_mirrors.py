@@ -1,7 +1,7 @@
-"""What rays that leave a mirror may meet: the diffuse scene, and the mirrors themselves where they can be seen in it.
+"""All triangles that rays from a mirror may hit: the diffuse scene, and the mirrors that may be seen in a mirror.
 
-A mirror hides what lies behind it in its own reflection, as it does in that of others, and where a second bounce is
-asked for it is the next mirror. Convex mirrors never see themselves: their triangles all lie below each other's planes.
+A mirror occludes objects behind it, in its own reflection and in that of other mirrors. With a second bounce it also
+reflects. Convex mirrors never see themselves: each triangle lies below the planes of all others.
 """
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from ..cameras import Cameras, MirrorSurface
 from ..geometry import Opacity, SceneFrames, TriangleMesh, columns, cross, dot, others, rows
-from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed
+from ..trees import Bound, Cones, Fronts, PointTree, SceneTree, Touching, first_crossed, first_of_many
 from ..views import View
 from .camera_families import traced
 from .candidates import Candidates
@@ -23,31 +23,31 @@ from .mirrors_shown import MirrorsShown
 from .opacities import Opacities
 from .scene_pieces import ScenePieces
 
-ABOVE = 1e-9  # of the mirrors' size, or of a triangle's: what rises less above a plane touches it by rounding
-RISEN = 1e-5  # of the mirrors' size: what rises less is seen by rays along the mirror alone
+ABOVE = 1e-9  # share of the size of mirrors or of a triangle: smaller heights above a plane are rounding
+RISEN = 1e-5  # share of the mirrors' size: triangles less high above a plane are seen by grazing rays only
 
 
 class SceneAndMirrors:
-    """Triangles that may be met: those of the diffuse scene, and behind them those of the mirrors.
+    """Triangles that rays may hit: first those of the diffuse scene, then those of the mirrors.
 
     Attributes
     ----------
     tree : SceneTree or PointTree, of the diffuse scene
-    positions : (n, 3) float64
+    positions : (n, 3) float64, vertices in world space
     triangles : (m, 3) int64
     diffuse : int
-        How many triangles are diffuse, pieces of some among them, and behind these all as they are drawn together; the
-        others are the mirrors'.
+        Number of diffuse triangles; later indices are triangles of mirrors. Diffuse are the scene's triangles, then the
+        pieces, then the scene's triangles on merged vertices, if there are any.
     pieces : ScenePieces, optional
-        What is left to the cameras of a patch; their triangles are numbered behind those of the scene.
+        Triangles left for the cameras of a patch; numbered after those of the scene.
     surface : MirrorSurface, of the mirrors
-    reflecting : (k,) bool, which triangles of the mirrors reflect; the others only hide what lies behind them
-    given : (k,) int64, the triangle that each of the mirrors' was before they were put in order
+    reflecting : (k,) bool, True for mirror triangles that reflect; the others are occluders only
+    given : (k,) int64, input index of each mirror triangle, before sorting
     mirror_tree : SceneTree
-    mirror_corners : (3, m, 3) float64, of the mirrors' triangles, as [component, triangle, corner]
-    size : float, of the mirrors: the longest side of the box round them, in scene units
+    mirror_corners : (3, m, 3) float64, corners of the mirrors' triangles, as [component, triangle, corner]
+    size : float, longest side of the mirrors' bounding box, in scene units
     opacities : Opacities, of the diffuse triangles
-    slide : float, share of what layers slide before other mirrors
+    slide : float, factor on the distance by which layers move from the mirror towards the eye; 1 by default
     """
 
     def __init__(self, tree: SceneTree | PointTree, mirrors: TriangleMesh,
@@ -67,7 +67,7 @@ class SceneAndMirrors:
         self._number(None)
 
     def with_opacity(self, opacity: np.ndarray | None) -> SceneAndMirrors:
-        """The same, of a scene whose triangles (m,), as they were given, have this `Opacity`, or are all opaque."""
+        """Return a copy whose diffuse triangles have this `Opacity` (m,), in input order; None means all opaque."""
         opacities = Opacities.of(None if opacity is None else opacity[self.tree.given.triangle])
         if opacities.all_opaque:
             return self
@@ -76,18 +76,18 @@ class SceneAndMirrors:
         return found
 
     def sliding(self, share: float) -> SceneAndMirrors:
-        """The same, before which layers slide by this share of what they slide elsewhere."""
+        """Return a copy with another `slide`: the factor on the distance of layers from the mirror."""
         found = copy(self)
         found.slide = share
         return found
 
     def from_outside(self, view: View) -> SceneAndMirrors:
-        """The same, without what closed bodies turn away from the view, which looks from outside."""
+        """Return a copy without the inner sides of closed bodies, for a view from outside of them."""
         seen = copy(self)
         trees = self.scene, self.mirror_tree
         outward = [tree.bodies.outward_from(view) for tree in trees]
         if self.opacities.of_scene is not None:
-            # through the open parts of a body its inner side is seen
+            # keep the inner sides of bodies with clear parts: they are seen through these
             outward[0] = np.where(self.scene.bodies.having(self.opacities.of_scene != Opacity.OPAQUE), 0.0, outward[0])
         seen.outward = outward[0]
         seen._fronts = [Fronts.of(tree.mesh, side) if side.any() else None for tree, side in zip(trees, outward)]
@@ -97,7 +97,7 @@ class SceneAndMirrors:
         mesh, mirrors, self.pieces = self.tree.mesh, self.mirrors, pieces
         positions = mesh.positions if pieces is None else pieces.mesh.positions
         triangles = [mesh.triangles] if pieces is None else [mesh.triangles, pieces.mesh.triangles]
-        self._merged = sum(map(len, triangles))  # the first that is drawn together
+        self._merged = sum(map(len, triangles))  # index of the first triangle on merged vertices
         if pieces is not None and pieces.merged is not None:
             triangles.append(pieces.merged)
         if pieces is not None:
@@ -108,7 +108,7 @@ class SceneAndMirrors:
         self.triangles = np.concatenate((*triangles, mirrors.triangles + len(positions)))
 
     def left_to(self, pieces: ScenePieces) -> SceneAndMirrors:
-        """The same, where the cameras of a patch have to show these pieces alone."""
+        """Return a copy in which the cameras of a patch see only these pieces of the scene."""
         left = copy(self)
         left._number(pieces)
         if self.outward is not None:
@@ -116,7 +116,10 @@ class SceneAndMirrors:
         return left
 
     def sources(self, triangle: np.ndarray) -> np.ndarray:
-        """The triangles that diffuse triangles (n,) lie in: of the scene, or as they are drawn together."""
+        """Return the whole triangles (n,) that diffuse triangles (n,) lie in, as indices into `triangles`.
+
+        For pieces on merged vertices this is the scene's triangle on merged vertices.
+        """
         if self.pieces is None:
             return triangle
         whole = len(self.tree.mesh.triangles)
@@ -124,34 +127,37 @@ class SceneAndMirrors:
                         self.on_patch(np.append(self.pieces.source, 0)[np.maximum(triangle - whole, 0)]))
 
     def on_patch(self, source: np.ndarray) -> np.ndarray:
-        """Triangles (n,) of the scene as whole faces and pieces show them, drawn together if any are."""
+        """Return the indices (n,) of triangles `source` (n,) as the patch shows them: on merged vertices, if any."""
         return source if self.pieces is None or self.pieces.merged is None else source + self._merged
 
     def of_scene(self, source: np.ndarray) -> np.ndarray:
-        """The triangles of the scene that `sources` and `on_patch` (n,) are."""
+        """Return the scene's triangles (n,) for results (n,) of `sources` and `on_patch`: the inverse of `on_patch`."""
         return np.where(source < self._merged, source, source - self._merged)
 
     @property
     def scene(self) -> SceneTree:
-        """The diffuse scene, where it is one of triangles: points have a trace of their own."""
+        """The tree of a diffuse scene with triangles; not valid for a `PointTree`."""
         assert isinstance(self.tree, SceneTree)
         return self.tree
 
     @property
     def bounds(self) -> tuple[np.ndarray, float]:
-        """Centre (3,) and radius of a sphere round the diffuse scene."""
+        """Centre (3,) and radius of a bounding sphere of the diffuse scene."""
         sphere = self.tree.spheres[0][:, 0]
         return sphere[:3], float(sphere[3])
 
     def showing_mirrors(self, cameras: Cameras, most: int) -> MirrorsShown:
-        """The mirrors that cameras may show; those for which more than `most` pairs of cameras and triangles would have
-        to be looked at may show any."""
+        """Find the mirrors that cameras may show.
+
+        If more than `most` pairs of a camera and a triangle are found, some cameras are given up: they may show any
+        mirror.
+        """
         found = self.mirrors_in(cameras, Bound(most, np.ones(len(cameras))))
         risen = self._above(self.upper_sides(cameras), found.cone, found.triangle, RISEN)
         return MirrorsShown.of(cameras, (found.cone, found.triangle), risen, found.given_up)
 
     def showing_scene(self, cameras: Cameras) -> np.ndarray:
-        """Which cameras (n,) may show the diffuse scene."""
+        """Return True (n,) for cameras that may show the diffuse scene."""
         centre, radius = self.bounds
         count = len(cameras)
         found = Cones.around(cameras).touch(np.arange(count), np.repeat(centre[:, None], count, axis=1),
@@ -162,7 +168,7 @@ class SceneAndMirrors:
         return found
 
     def diffuse_in(self, cameras: Cameras, bound: Bound) -> Touching:
-        """Cameras and diffuse triangles that may be seen in them."""
+        """Find pairs of a camera and a diffuse triangle that it may see."""
         if self.pieces is None:
             return traced(self.scene, cameras, bound, self._fronts[0])
         on_patch = self.pieces.holds(cameras)
@@ -180,15 +186,14 @@ class SceneAndMirrors:
         return outer_side(self.mirrors, self.surface, self._beyond, RISEN * self.size)
 
     def mirrors_in(self, cameras: Cameras, bound: Bound, before: MirrorsShown | None = None) -> Touching:
-        """Cameras and triangles of mirrors that may be seen in them. What was found `before` is not looked for
-        again."""
+        """Find pairs of a camera and a mirror triangle that it may see; cameras in the cache `before` are looked up."""
         if before is not None:
             camera, triangle, known = before.known(cameras)
             asked = np.flatnonzero(~known)
             found = self.mirrors_in(cameras.select(asked), bound.select(asked).beside(len(camera)))
             return Touching.joined([replace(Touching.none(len(cameras)), cone=camera, triangle=triangle),
                                     found.among(asked, len(cameras))])
-        # which side of its triangle the rays of a camera leave is asked once
+        # compute once on which side of its triangle a camera's rays leave
         sides = self.upper_sides(cameras)
         if len(cameras) and self._outside and cameras.mirror_map.bounce == 1:
             surface, face = cameras.mirror_map.last(cameras.face)
@@ -198,33 +203,53 @@ class SceneAndMirrors:
                        lambda camera, triangle: self._above(sides, camera, triangle))
 
     def first_met(self, sides: tuple[np.ndarray, np.ndarray], origin: np.ndarray, ray: np.ndarray,
-                  ) -> tuple[np.ndarray, np.ndarray]:
-        """The triangle (n,) that each ray, from `origin` along unit vectors `ray` (3, n), meets first, -1 where none;
-        and how far away. They leave mirrors on `sides`, a place and a normal (3, n) each; what does not rise above is
-        not met."""
-        diffuse, near = first_crossed(self.scene, origin, ray)
-        mirror, nearer = first_crossed(self.mirror_tree, origin, ray, ABOVE * self.size,
+                  many: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """Trace rays to the first triangle that they hit.
+
+        Parameters
+        ----------
+        sides : tuple
+            A place and a normal (3, n) of the mirror plane that each ray leaves. Mirrors not above it cannot be hit.
+        origin, ray : (3, n) float64, starts and unit directions
+        many : bool, True if the rays are a part of a large set: chooses the traversal
+
+        Returns
+        -------
+        triangle : (n,) int64, index into `triangles`, -1 for none
+        distance : (n,) float64, infinite for none
+        """
+        first = first_of_many if many else first_crossed
+        diffuse, near = first(self.scene, origin, ray)
+        mirror, nearer = first(self.mirror_tree, origin, ray, ABOVE * self.size,
                                        lambda own, triangle: self._above(sides, own, triangle))
         return np.where(nearer < near, mirror + self.diffuse, diffuse), np.minimum(near, nearer)
 
-    def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray) -> np.ndarray:
-        """Return True for rays (3, n), unit vectors, that meet something of the diffuse scene that must not be covered,
-        within `reach` (n,) of where they begin, on a mirror."""
-        return first_crossed(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach)[0] >= 0
+    def hidden_within(self, origin: np.ndarray, ray: np.ndarray, reach: np.ndarray,
+                      many: bool = False) -> np.ndarray:
+        """Return True (n,) for rays from a mirror that hit a diffuse triangle that layers must not cover.
+
+        Only hits within `reach` (n,) count. `origin` and unit vectors `ray` are (3, n); `many` as for `first_met`.
+        """
+        first = first_of_many if many else first_crossed
+        return first(self.scene, origin, ray, ABOVE * self.size, self._if_seen(), limit=reach)[0] >= 0
 
     def _if_seen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
-        """Tell which pairs of a ray and a triangle count for rays of the eye; None if all do."""
+        """Return a filter for pairs of an eye ray and a triangle that count as hits; None if all do."""
         return None if self.opacities.all_opaque else lambda _, triangle: self.opacities.not_to_cover(triangle)
 
     def first_distances(self, origin: np.ndarray, ray: np.ndarray, diffuse: bool) -> np.ndarray:
-        """Distances (n,) along rays (3, n) of the eye, unit vectors, of what it sees of the diffuse scene, or of this
-        and the mirrors; infinite for rays that meet none."""
+        """Return the distance (n,) to the first hit of eye rays, infinite for none.
+
+        `origin` and unit vectors `ray` are (3, n). If `diffuse` is True, mirrors are ignored.
+        """
         near = first_crossed(self.scene, origin, ray, asked=self._if_seen())[1]
         return near if diffuse else np.minimum(near, first_crossed(self.mirror_tree, origin, ray)[1])
 
     def upper_sides(self, cameras: Cameras) -> tuple[np.ndarray, np.ndarray]:
-        """The planes (n) of the cameras' flat triangles: a place on each, and its normal on the side that the rays
-        leave."""
+        """Return the planes of the cameras' flat triangles: a place (3, n) on each, and its unit normal (3, n).
+
+        The normal points to the side on which the rays leave.
+        """
         mirror_map = cameras.mirror_map
         surface, face = mirror_map.last(cameras.face)
         normal = surface.face_normal[:, face]
@@ -232,8 +257,10 @@ class SceneAndMirrors:
 
     def _above(self, sides: tuple[np.ndarray, np.ndarray], camera: np.ndarray, triangle: np.ndarray,
                least: float = ABOVE) -> np.ndarray:
-        """Whether triangles (p,) of mirrors rise above the planes of the cameras (p,), by more than the `least` part
-        of the mirrors' size."""
+        """Return True (p,) for pairs of a camera and a mirror triangle that rises above the camera's plane.
+
+        `sides` are the planes of all cameras. Heights up to `least`, a share of the mirrors' size, do not count.
+        """
         base, normal = (columns(side, camera) for side in sides)
         found = np.zeros(len(camera), dtype=bool)
         for corners in self._corners:
@@ -241,26 +268,28 @@ class SceneAndMirrors:
         return found
 
     def shows_mirror(self, frames: SceneFrames) -> np.ndarray:
-        """Which columns (t,) of the frames are triangles of mirrors."""
+        """Return True (t,) for columns of the frames that are mirror triangles."""
         return frames.triangle >= self.diffuse
 
     def reflects(self, frames: SceneFrames) -> np.ndarray:
-        """Which columns (t,) of the frames are triangles of mirrors from which light goes on."""
+        """Return True (t,) for columns of the frames that are mirror triangles that reflect."""
         shows = self.shows_mirror(frames)
         return shows & self.reflecting[np.where(shows, frames.triangle - self.diffuse, 0)]
 
     def are_mirrors(self, candidates: Candidates) -> np.ndarray:
-        """Which candidates (p,) are triangles of mirrors."""
+        """Return True (p,) for candidates whose triangle is a mirror."""
         return self.shows_mirror(candidates.frames)[candidates.column]
 
     def only_diffuse(self, candidates: Candidates) -> Candidates:
-        """Candidates without the mirrors' triangles."""
+        """Return the candidates without mirror triangles."""
         mirror = self.are_mirrors(candidates)
         return candidates.select(np.flatnonzero(~mirror)) if mirror.any() else candidates
 
     def inner_sides(self, candidates: Candidates) -> np.ndarray:
-        """(3, p): sides of the candidates over which a mirror goes on, seen from anywhere in the camera. They bound
-        nothing that is seen, as outlines do."""
+        """Return True (3, p) for sides of mirror triangles that are no outline, seen from anywhere in the camera.
+
+        The mirror continues across such a side, on its other side in the picture.
+        """
         cameras, frames = candidates.cameras, candidates.frames
         inner = np.zeros((3, len(candidates)), dtype=bool)
         pair = np.flatnonzero(self.are_mirrors(candidates))
@@ -272,8 +301,8 @@ class SceneAndMirrors:
         for side in range(3):
             beyond = columns(self._beyond[:, :, side], triangle)
             start, end = (own[corner] for corner in others(side))
-            # a corner's place beside the plane through the side and a ray's origin is linear in the origin: three
-            # corners of a camera speak for all of it
+            # the distance of a corner from the plane through the side and a ray's origin is linear in the origin: test
+            # the three corners of a camera
             planes = [cross(end - start, start - origin) for origin in origins]
             near, far = (np.sign([dot(plane, corner - start) for plane in planes]).sum(axis=0)
                          for corner in (own[side], beyond))

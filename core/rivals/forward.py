@@ -63,9 +63,11 @@ def _drawn(view: View, mesh: ReflectionMesh, triangle_of: np.ndarray | None, hit
     work.done("reflection")
     work.seconds.pop("reflection")
     work.seconds.update(mesh.seconds)
-    descents = mesh.counts["cameras" if mesh.discs is None else "descents"]
-    work.count(projections=mesh.counts["projections"], traversals=descents, nodes=mesh.counts["nodes_visited"],
-               rays=mesh.counts.get("rays", 0))
+    # a mirror of small triangles has no cameras, only rays
+    counts = {name: mesh.counts.get(name, 0) for name in ("projections", "nodes_visited", "rays")}
+    descents = mesh.counts.get("cameras" if mesh.discs is None else "descents", 0)
+    work.count(projections=counts["projections"], traversals=descents, nodes=counts["nodes_visited"],
+               rays=counts["rays"])
     if triangle_of is None or mesh.discs is None:
         positions, triangles, source, point = mesh.positions, mesh.triangles, mesh.source_face, mesh.reflected_position
     else:

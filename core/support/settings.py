@@ -1,4 +1,4 @@
-"""What the user asks for: one number, the tolerance in pixels, and few choices."""
+"""Settings of `core.reflect`: one number, the tolerance in pixels, and few choices."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,13 +9,15 @@ from .checks import LARGEST, number, whole_number
 
 PLACEMENTS = ("LAYERED", "SURFACE", "VIRTUAL")
 METHODS = ("GENERAL", "PARALLEL", "POINTS")
+# limits of an automatic depth: bounces, and share of a mirror's pixels that may still see mirrors at the last one
+MOST_BOUNCES, LEFT = 8, 0.002
 _MOST = 2 ** 62
 """Whole numbers that are larger would not fit the arrays' own."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How `core.reflect` works.
+    """Settings of `core.reflect`.
 
     Parameters
     ----------
@@ -29,7 +31,8 @@ class Settings:
         every image of a diffuse vertex as a flat disc, for scenes whose triangles are smaller than a pixel.
     depth : int
         How many bounces from mirror to mirror are followed; 1 for a single reflection. Larger than what there is to see
-        costs nothing.
+        costs nothing. 0 follows what mirrors see of each other until it is less than `LEFT` of what is seen of them, up
+        to `MOST_BOUNCES`.
     maximum_faces : int
         About how many there may be: refinement stops here, and what would take more is shown by rays, as where the
         memory holds no more. The result says so.
@@ -51,10 +54,10 @@ class Settings:
     >>> from core import Settings
     >>> Settings(tolerance=0.25, depth=2).placement
     'LAYERED'
-    >>> Settings(depth=0)
+    >>> Settings(depth=-1)
     Traceback (most recent call last):
         ...
-    ValueError: The depth must be a whole number of bounces, at least 1.
+    ValueError: The depth must be a whole number of bounces, at least 1, or 0 for as many as there are to see.
     """
 
     tolerance: float = 0.5
@@ -76,8 +79,9 @@ class Settings:
             raise ValueError(f"The placement must be one of {', '.join(PLACEMENTS)}.")
         if not (isinstance(self.method, str) and self.method in METHODS):
             raise ValueError(f"The method must be one of {', '.join(METHODS)}.")
-        if depth is None or not 1 <= depth <= _MOST:
-            raise ValueError("The depth must be a whole number of bounces, at least 1.")
+        if depth is None or not 0 <= depth <= _MOST:
+            raise ValueError("The depth must be a whole number of bounces, at least 1, or 0 for as many as there "
+                             "are to see.")
         if depth > 1 and self.method == "POINTS":
             raise ValueError("Points follow one bounce only: set Bounces (depth) to 1, or let Made Of (method) be "
                              "faces.")
@@ -91,3 +95,10 @@ class Settings:
                             ("depth", depth), ("maximum_faces", faces), ("maximum_memory", memory),
                             ("hidden_faces", bool(self.hidden_faces))):
             object.__setattr__(self, name, value)
+
+    @property
+    def bounces(self) -> int:
+        """Largest number of bounces to follow."""
+        if self.depth:
+            return self.depth
+        return 1 if self.method == "POINTS" else MOST_BOUNCES

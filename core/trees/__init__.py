@@ -7,7 +7,7 @@ from .bounded_trace import Bound, Touching, bounded_trace
 from .box_tree import BoxTree
 from .closed_bodies import Fronts
 from .cones import Balls, Cones
-from .first_crossed import first_crossed
+from .first_crossed import first_crossed, first_of_many
 from .first_hits import first_hits, meet
 from .magnification import Magnification
 from .node_tree import along_curve, curve_leaves, depth_for
@@ -18,4 +18,4 @@ from .vertex_tree import StandIns, VertexTree
 
 __all__ = ["SMALL", "Balls", "Bound", "BoxTree", "Cones", "Fronts", "Magnification", "PointTree", "SceneTree",
            "Shafts", "StandIns", "Touching", "VertexTree", "along_curve", "bounded_trace", "curve_leaves", "depth_for",
-           "first_crossed", "first_hits", "meet"]
+           "first_crossed", "first_of_many", "first_hits", "meet"]

@@ -16,21 +16,37 @@ WORTH_BOXES = 10  # triangles for each ray, up to which boxes round them pay: a 
 def first_crossed(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
                   asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
                   limit: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """The triangle (n,) of a tree that each ray (3, n), a unit vector, meets first farther than `beyond` and nearer
-    than `limit` (n,), -1 where it meets none, and how far away, infinite there; of pairs (ray, triangle) only those
-    that are `asked` for."""
+    """Find the first triangle that each ray meets farther than `beyond` and nearer than `limit` (n,).
+
+    Parameters
+    ----------
+    origin, ray : (3, n) float64, origins and unit directions
+    asked : callable, optional, takes rays (p,) and triangles (p,); returns True (p,) for pairs that count
+
+    Returns
+    -------
+    triangle : (n,) int64, of the tree, -1 if the ray meets none
+    distance : (n,) float64, infinite if it meets none
+    """
     count = ray.shape[1]
-    if count * WORTH_BOXES > len(tree):  # by counts alone, so that what is kept from before changes nothing
-        hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked, limit=limit)
-        return hits.triangle, hits.distance
+    if count * WORTH_BOXES > len(tree):  # by counts alone, so that the result does not depend on what is cached
+        return first_of_many(tree, origin, ray, beyond, asked, limit)
     first, distance = _by_cones(tree, origin, ray, beyond, asked)
     near = np.isfinite(distance) if limit is None else distance < limit
     return np.where(near, first, -1), np.where(near, distance, np.inf)
 
 
+def first_of_many(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float = 0.0,
+                  asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
+                  limit: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Find first triangles as `first_crossed` does, by the tree of boxes: for many rays, or portions of many."""
+    hits = first_hits(tree.boxes, origin, ray, least=beyond, asked=asked, limit=limit)
+    return hits.triangle, hits.distance
+
+
 def _by_cones(tree: SceneTree, origin: np.ndarray, ray: np.ndarray, beyond: float,
               asked: Callable[[np.ndarray, np.ndarray], np.ndarray] | None) -> tuple[np.ndarray, np.ndarray]:
-    """Few rays, for which building boxes would take longer than they do as cones without width."""
+    """Find first triangles of few rays, as cones without width, without the cost of building a tree of boxes."""
     count = ray.shape[1]
     zero, first, best = np.zeros(count), np.full(count, -1), np.full(count, np.inf)
     for own, triangle, _ in tree.traced(Cones(origin, zero, ray, zero, zero + 1.0), np.ones(count, dtype=bool)):

@@ -13,10 +13,10 @@ from functools import partial
 import numpy as np
 
 from ..geometry import ranges
-from ..support import breathe, portions
+from ..support import breathe, in_parallel
 from .box_tree import BoxTree
 
-RAYS_AT_ONCE = 65536
+RAYS_AT_ONCE = 32768
 WORTH_DIVIDING = 8192  # pairs of a batch
 EDGE = 1e-10  # barycentric: a ray may miss a triangle by this, so that it does not slip between two
 
@@ -53,16 +53,19 @@ def first_hits(tree: BoxTree, origins: np.ndarray, directions: np.ndarray, *, le
     """
     count = origins.shape[1]
     triangle, distance = np.full(count, -1), np.full(count, np.inf)
-    intersections = nodes = 0
-    for part in portions(count if len(tree) else 0, RAYS_AT_ONCE):
-        trace = _Trace(tree, origins[:, part], directions[:, part], least,
-                       None if limit is None else limit[part],
-                       None if asked is None else partial(_later, asked, part.start))
-        trace.run()
-        triangle[part], distance[part] = trace.triangle, np.where(trace.triangle >= 0, trace.nearest, np.inf)
-        intersections += trace.intersections
-        nodes += trace.nodes
-    return Hits(triangle, distance, intersections, nodes)
+    parts = [slice(start, min(start + RAYS_AT_ONCE, count))
+             for start in range(0, count if len(tree) else 0, RAYS_AT_ONCE)]
+
+    def trace(part: slice) -> _Trace:
+        own = _Trace(tree, origins[:, part], directions[:, part], least, None if limit is None else limit[part],
+                     None if asked is None else partial(_later, asked, part.start))
+        own.run()
+        return own
+
+    traces = in_parallel(trace, parts)
+    for part, own in zip(parts, traces):
+        triangle[part], distance[part] = own.triangle, np.where(own.triangle >= 0, own.nearest, np.inf)
+    return Hits(triangle, distance, sum(own.intersections for own in traces), sum(own.nodes for own in traces))
 
 
 def _later(asked: Callable[[np.ndarray, np.ndarray], np.ndarray], start: int, ray: np.ndarray,
@@ -112,7 +115,10 @@ class _Trace:
             stack.extend(batch for batch in batches if len(batch[0]))
 
     def _enter(self, ray: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """Where the rays enter the boxes of the nodes, infinite where they do not before the nearest hit so far."""
+        """Return the distance at which each `ray` (n,) enters the box of its `node` (n,).
+
+        It is infinite if the ray misses the box, or enters it behind its nearest hit so far.
+        """
         self.nodes += len(ray)
         enter, leave = np.zeros(len(ray)), self.nearest[ray]
         for low, high, inverse, shift in zip(self.tree.low, self.tree.high, self.inverse, self.shift):
@@ -144,8 +150,19 @@ def _entering(ray: np.ndarray, node: np.ndarray, entry: np.ndarray) -> tuple[np.
 
 def meet(tree: BoxTree, entry: np.ndarray, origins: np.ndarray, directions: np.ndarray,
          ray: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (p,) at which rays `ray` meet the planes of the triangles at `entry` of the tree's order, and whether
-    inside the triangles; `origins` are relative to the tree's middle."""
+    """Intersect rays with the planes of triangles.
+
+    Parameters
+    ----------
+    entry : (p,) int64, triangles, as entries of the tree's `order`
+    origins, directions : (3, n) float64, of all rays, relative to the tree's `middle`
+    ray : (p,) int64, the ray of each pair
+
+    Returns
+    -------
+    distance : (p,) float64, in lengths of the direction
+    inside : (p,) bool, True if the ray meets the plane inside the triangle
+    """
     origin, direction = np.take(origins, ray, axis=1), np.take(directions, ray, axis=1)
 
     def row(k):

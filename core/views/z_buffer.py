@@ -1,4 +1,4 @@
-"""A z-buffer: which triangle the centre of each pixel shows, and where on it.
+"""A z-buffer: the triangle seen at the centre of each pixel, and the barycentric coordinates there.
 
 Triangles are drawn in homogeneous coordinates (M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous
 coordinates", Graphics Hardware 1997): the three edge functions of a triangle are the rows of the inverse of the matrix
@@ -7,6 +7,7 @@ eye need no clipping, and two triangles that share an edge compute it with oppos
 """
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ FRAGMENTS_AT_ONCE = 1_000_000
 
 @dataclass(frozen=True)
 class Drawn:
-    """What pixels show, along the rows from below; n = width x height.
+    """Visible triangle at each pixel, along the rows from below; n = width x height.
 
     Attributes
     ----------
@@ -34,7 +35,7 @@ class Drawn:
     depth: np.ndarray
 
     def interpolate(self, values: np.ndarray, triangles: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-        """(3, m) of values (v, 3) of the triangles' vertices, at pixels (m,) that show one."""
+        """Interpolate `values` (v, 3) at the vertices of `triangles` (t, 3) to (3, m) at pixels (m,) that show one."""
         corners = triangles[self.triangle[pixel]]
         return sum(self.weights[k, pixel] * values[corners[:, k]].T for k in range(3))
 
@@ -52,8 +53,34 @@ def draw(view: View, positions: np.ndarray, triangles: np.ndarray) -> Drawn:
     """
     width, height = view.resolution
     drawn = Drawn(np.full(width * height, -1), np.zeros((3, width * height)), np.full(width * height, np.inf))
+    for triangle, pixel, shares, z in fragments(view, positions, triangles):
+        nearer = np.flatnonzero(z < drawn.depth[pixel])
+        # farthest first: of the fragments of one pixel the nearest is written last
+        nearer = nearer[np.argsort(-z[nearer], kind="stable")]
+        at = pixel[nearer]
+        drawn.depth[at], drawn.triangle[at] = z[nearer], triangle[nearer]
+        drawn.weights[:, at] = shares[:, nearer]
+    return drawn
+
+
+def fragments(view: View, positions: np.ndarray, triangles: np.ndarray) -> Iterator[tuple]:
+    """Yield the pixels whose centres each triangle covers, in chunks.
+
+    Parameters
+    ----------
+    positions : (v, 3) float64, in world space
+    triangles : (m, 3) int64
+
+    Yields
+    ------
+    triangle : (k,) int64
+    pixel : (k,) int64, along the rows from below
+    shares : (3, k) float64, barycentric coordinates in the triangle
+    depth : (k,) float64, distance from the eye's plane
+    """
+    width, height = view.resolution
     if not len(triangles):
-        return drawn
+        return
     clip = view.clip(positions)
     w = clip[:, 3]
     # pixels times w: divided only where a picture is certain to exist
@@ -70,8 +97,7 @@ def draw(view: View, positions: np.ndarray, triangles: np.ndarray) -> Drawn:
     # a part has about so many lines, and each line at most `width` fragments
     part_of = np.cumsum(lines[kept]) * 64 // FRAGMENTS_AT_ONCE
     for part in np.split(kept, np.flatnonzero(np.diff(part_of)) + 1):
-        _draw(drawn, part, edges, depth[triangles].T, (low, high[0], lines), width)
-    return drawn
+        yield from _fragments(part, edges, depth[triangles].T, (low, high[0], lines), width)
 
 
 def _edge_functions(corners: np.ndarray) -> np.ndarray:
@@ -99,7 +125,7 @@ def _bounds(pixel: np.ndarray, triangles: np.ndarray, resolution: tuple[int, int
     return low.astype(np.int64), np.where(gone, -1, np.minimum(high, size - 1)).astype(np.int64)
 
 
-def _draw(drawn: Drawn, part, edges, depth, extent, width) -> None:
+def _fragments(part, edges, depth, extent, width) -> Iterator[tuple]:
     low, rightmost, lines = extent
     row, owner = ranges(low[1, part], lines[part])
     owner = part[owner]
@@ -133,9 +159,4 @@ def _draw(drawn: Drawn, part, edges, depth, extent, width) -> None:
             shares /= shares.sum(axis=0)
             z = sum(share * corner[triangle] for share, corner in zip(shares, depth))
         breathe()
-        nearer = np.flatnonzero(z < drawn.depth[pixel])
-        # farthest first: of the fragments of one pixel the nearest is written last
-        nearer = nearer[np.argsort(-z[nearer], kind="stable")]
-        at = pixel[nearer]
-        drawn.depth[at], drawn.triangle[at] = z[nearer], triangle[nearer]
-        drawn.weights[:, at] = shares[:, nearer]
+        yield triangle, pixel, shares, z

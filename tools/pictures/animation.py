@@ -1,10 +1,9 @@
-"""Makes docs/pictures/animation.gif: twenty seconds of a room, its golden ball a reflection mesh that is made anew and
+"""Makes docs/pictures/animation.gif: ten seconds of a room, its golden ball a reflection mesh that is made anew and
 lit in every frame.
 
     python -m tools.pictures.animation [folder] [seconds]
 
-What the camera sees of the ball is the mesh alone. Its light is of the kind Picture: Cycles traces the ball once a
-frame.
+What the camera sees of the ball is the mesh alone: the ball itself is hidden from the camera.
 """
 from __future__ import annotations
 
@@ -63,9 +62,11 @@ def _frame(turn: float, path: Path) -> Image.Image:
     camera.matrix_world = Matrix.Translation(place) @ Vector(aim).to_track_quat("-Z", "Y").to_matrix().to_4x4()
     bpy.context.view_layer.update()
     bpy.ops.reflection_mesh.generate()
-    bpy.ops.reflection_mesh.light(samples=SAMPLES, kind="PICTURE")
+    bpy.ops.reflection_mesh.light(samples=SAMPLES)
     scene.render.filepath = str(path)
+    ball.visible_camera = False
     bpy.ops.render.render(write_still=True)
+    ball.visible_camera = True
     with Image.open(path) as picture:
         return picture.convert("RGB")
 
@@ -81,4 +82,4 @@ def _palette(pictures: list) -> Image.Image:
 
 if __name__ == "__main__":
     main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures",
-         float(sys.argv[2]) if len(sys.argv) > 2 else 20.0)
+         float(sys.argv[2]) if len(sys.argv) > 2 else 10.0)

@@ -4,7 +4,7 @@
 
 Leaves `tolerance.jpg` (0.5, 4 and 16 pixels, with the edges of the mesh), `placement.jpg` (layered, on the surface and
 virtual, from beside the camera), `made_of.jpg` (faces, and points with discs, of a coarse and a dense mesh),
-`light_kind.jpg` (lit; what is left of each kind of light when the camera has moved), `light_samples.jpg` (1, 8
+`light_samples.jpg` (1, 8
 and 64), `memory.jpg` (little and enough) and `hidden_faces.jpg` (objects taken away, without hidden
 faces and with them) in the folder, docs/pictures/ by default; or those of them that are named.
 """
@@ -23,7 +23,6 @@ LIT_BALL = (131, 130, 381, 380)  # of the room at 50 %
 CLOSE = (520, 510, 660, 650)  # round the ring in the ball
 BEFORE_THE_BALL = (330, 330, 710, 710)
 NEAR = ("Violet Gem", "Teal Ring")
-TURN = 0.3  # of the camera round the ball, radians
 
 
 def main(folder: Path, asked: list[str]) -> None:
@@ -50,24 +49,10 @@ def made_of(scratch: Path) -> list[Path]:
             _tile(scratch / "dense.png", dense=True, method="POINTS")]
 
 
-def light_kind(scratch: Path) -> list[Path]:
-    from mathutils import Matrix
-    made = []
-    for kind in ("PICTURE", "OBJECTS"):
-        scene = _lit_room(kind)
-        made.append(_rendered(scratch / f"{kind}.png", 64))
-        ball = scene.objects["Golden Ball"].matrix_world.translation
-        turn = Matrix.Translation(ball) @ Matrix.Rotation(TURN, 4, "Z") @ Matrix.Translation(-ball)
-        scene.camera.matrix_world = turn @ scene.camera.matrix_world
-        _generate()
-        made.append(_rendered(scratch / f"{kind} moved.png", 64))
-    return [made[0], made[1], made[3]]
-
-
 def light_samples(scratch: Path) -> list[Path]:
     made = []
     for samples in (1, 8, 64):
-        _lit_room("PICTURE", light_samples=samples)
+        _lit_room(light_samples=samples)
         made.append(_rendered(scratch / f"samples{samples}.png", 64))
     return made
 
@@ -99,7 +84,7 @@ def hidden_faces(scratch: Path) -> list[Path]:
 
 
 PICTURES = {"tolerance": (tolerance, BALL), "placement": (placement, (256, 256, 768, 768)), "made_of": (made_of, BALL),
-            "light_kind": (light_kind, LIT_BALL), "light_samples": (light_samples, LIT_BALL),
+            "light_samples": (light_samples, LIT_BALL),
             "memory": (memory, None), "hidden_faces": (hidden_faces, BEFORE_THE_BALL)}
 
 
@@ -140,13 +125,13 @@ def _opened(name: str, **settings):
     return bpy.context.scene
 
 
-def _lit_room(kind: str, **settings):
+def _lit_room(**settings):
     """The scene of the room, its ball lit."""
     import bpy
     scene = _opened("room", **settings)
     scene.render.resolution_percentage = 50
     _generate()
-    bpy.ops.reflection_mesh.light(kind=kind)
+    bpy.ops.reflection_mesh.light()
     return scene
 
 

@@ -1,12 +1,13 @@
 """Makes the README's pictures from the software's own output.
 
-    python -m tools.pictures.samples [folder]
+    python -m tools.pictures.samples [folder] [picture ...]
 
 Leaves `sphere.jpg` (Cycles, the reflection mesh before a mirror that reflects the sky alone, the mesh's edges),
 `samples.jpg` (the reflection mesh in each sample that emits what it shows), `mirrors.jpg` (mirrors in mirrors, by
 Cycles and to a depth of 1, 2 and 3), `lit.jpg` (each lit sample by Cycles, as generated, and lit) and `eevee.jpg`
 (the room by Cycles, by EEVEE's own ray tracing, and by EEVEE with the lit reflection) and `anamorphosis.jpg` (the
-sheet that is printed, and the mirror on it by Cycles) in the folder, docs/pictures/ by default.
+sheet that is printed, and the mirror on it by Cycles) in the folder, docs/pictures/ by default; or those of them that
+are named.
 """
 from __future__ import annotations
 
@@ -20,28 +21,41 @@ from tools import extension_zip
 
 SAMPLES = extension_zip.ROOT / "sample_blends"
 PANEL, GAP = 480, 6
+LIT_BOX, BALL_BOX = (32, 80, 378, 378), (88, 80, 318, 310)  # left, top, right, bottom, of pictures of 409 pixels
 LIT = ("room", "bathroom", "pond")
 OWN_PICTURES = (*LIT, "anamorphosis", "pool", "ring", "sunlight", "dish")
 
 
-def main(folder: Path) -> None:
+def main(folder: Path, asked: list[str]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     with extension_zip.installed() as scratch:
-        samples = sorted(path for path in SAMPLES.glob("*.blend") if path.stem not in OWN_PICTURES)
-        for path in samples:
-            _compare(path, scratch / path.stem)
-        save(folder / "samples.jpg", [scratch / path.stem / "result.png" for path in samples], columns=4)
-        edges = _edges(scratch / "sphere", SAMPLES / "sphere.blend")
-        save(folder / "sphere.jpg", [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
-              columns=3, crop=(212, 183, 772, 743))
-        mirrors = SAMPLES / "mirrors.blend"
-        for depth in (1, 2, 3):
-            _compare(mirrors, scratch / f"mirrors{depth}", depth)
-        save(folder / "mirrors.jpg", [scratch / "mirrors3" / "reference.png", *(
-            scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
-        light(folder / "lit.jpg", scratch)
-        eevee(folder / "eevee.jpg", scratch)
-        anamorphosis(folder / "anamorphosis.jpg", scratch)
+        for name, make in PICTURES.items():
+            if not asked or name in asked:
+                make(folder / f"{name}.jpg", scratch)
+
+
+def samples(path: Path, scratch: Path) -> None:
+    """The picture of the samples that emit what they show."""
+    chosen = sorted(one for one in SAMPLES.glob("*.blend") if one.stem not in OWN_PICTURES)
+    for one in chosen:
+        _compare(one, scratch / one.stem)
+    save(path, [scratch / one.stem / "result.png" for one in chosen], columns=4)
+
+
+def sphere(path: Path, scratch: Path) -> None:
+    """The picture of the sphere: by Cycles, its reflection, and the mesh's edges."""
+    _compare(SAMPLES / "sphere.blend", scratch / "sphere")
+    edges = _edges(scratch / "sphere", SAMPLES / "sphere.blend")
+    save(path, [scratch / "sphere" / "reference.png", scratch / "sphere" / "result.png", edges],
+         columns=3, crop=(212, 183, 772, 743))
+
+
+def mirrors(path: Path, scratch: Path) -> None:
+    """The picture of mirrors in mirrors: by Cycles, and to each depth."""
+    for depth in (1, 2, 3):
+        _compare(SAMPLES / "mirrors.blend", scratch / f"mirrors{depth}", depth)
+    save(path, [scratch / "mirrors3" / "reference.png", *(
+        scratch / f"mirrors{depth}" / "result.png" for depth in (1, 2, 3))], columns=2, crop=(100, 200, 924, 1024))
 
 
 def light(path: Path, scratch: Path) -> None:
@@ -49,7 +63,7 @@ def light(path: Path, scratch: Path) -> None:
     for name in LIT:
         _lit(SAMPLES / f"{name}.blend", scratch / name)
     save(path, [scratch / name / f"{kind}.png" for name in LIT for kind in ("reference", "generated", "result")],
-          columns=3, crop=(32, 80, 378, 378))
+          columns=3, crop=(0, 0, LIT_BOX[2] - LIT_BOX[0], LIT_BOX[3] - LIT_BOX[1]))
 
 
 def _lit(path: Path, folder: Path) -> None:
@@ -58,7 +72,8 @@ def _lit(path: Path, folder: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(path))
     scene = bpy.context.scene
     scene.render.resolution_percentage = 40
-    scene.cycles.samples, scene.cycles.use_denoising = 64, False
+    _crop(scene.render, LIT_BOX)
+    scene.cycles.samples, scene.cycles.use_denoising = 32, True
     for name, work in (("reference", None), ("generated", bpy.ops.reflection_mesh.generate),
                        ("result", bpy.ops.reflection_mesh.light)):
         if work is not None:
@@ -73,6 +88,7 @@ def eevee(path: Path, scratch: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "room.blend"))
     scene = bpy.context.scene
     scene.render.resolution_percentage = 40
+    _crop(scene.render, BALL_BOX)
     scene.cycles.samples, scene.eevee.taa_render_samples, scene.eevee.use_raytracing = 128, 32, True
     own = "BLENDER_EEVEE_NEXT" if bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
     pictures = []
@@ -84,7 +100,15 @@ def eevee(path: Path, scratch: Path) -> None:
         pictures.append(scratch / f"eevee_{name}.png")
         scene.render.filepath = str(pictures[-1])
         bpy.ops.render.render(write_still=True)
-    save(path, pictures, columns=3, crop=(88, 80, 318, 310))
+    save(path, pictures, columns=3, crop=(0, 0, BALL_BOX[2] - BALL_BOX[0], BALL_BOX[3] - BALL_BOX[1]))
+
+
+def _crop(render, box: tuple) -> None:
+    """Render a box (left, top, right, bottom) of pixels alone."""
+    width, height = (side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_max_x = (box[0] + 0.5) / width, (box[2] + 0.5) / width
+    render.border_min_y, render.border_max_y = 1.0 - (box[3] - 0.5) / height, 1.0 - (box[1] - 0.5) / height
 
 
 def anamorphosis(path: Path, scratch: Path) -> None:
@@ -166,5 +190,8 @@ def save(path: Path, pictures: list[Path], columns: int, crop: tuple | None = No
     Image.fromarray(sheet).save(path, quality=90, optimize=True)
 
 
+PICTURES = {"samples": samples, "sphere": sphere, "mirrors": mirrors, "lit": light, "eevee": eevee,
+            "anamorphosis": anamorphosis}
+
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else extension_zip.ROOT / "docs" / "pictures", sys.argv[2:])

@@ -1,10 +1,10 @@
-"""What lighting in the picture takes, beside Cycles that renders the same window of the file with as many samples.
+"""Compare the time of Light Reflection with that of a Cycles render of the frame with as many samples.
 
     python -m tools.timing.light_ratio [room bathroom pond] [--rounds 3] [--side 512] [--samples 64]
 
-Both in turn, in processor seconds of all cores: machines are noisy, and the medians of a few rounds are compared.
-Cycles renders the mirrors as the file has them, without the reflections: once without denoising, and once with the
-denoiser that light has, which is what Blender does by default.
+Both run in turn, in processor seconds of all cores. Machines are noisy, so medians of a few rounds are compared. Cycles
+renders the mirrors as the file has them, without the reflections: once without denoising, and once with the denoiser
+that light has, which is what Blender does by default.
 """
 from __future__ import annotations
 
@@ -15,13 +15,11 @@ import time
 from collections.abc import Callable
 from functools import partial
 
-import numpy as np
-
 from tools import extension_zip
 from tools.quietly import quietly
 
 SAMPLES = ("room", "bathroom", "pond")
-ROWS = ("sample", "window", "Cycles s", "denoised s", "light s", "ratio", "ratio to denoised", "stages s")
+ROWS = ("sample", "Cycles s", "denoised s", "light s", "ratio", "ratio to denoised", "stages s")
 
 
 def main(arguments: list[str]) -> int:
@@ -39,12 +37,9 @@ def main(arguments: list[str]) -> int:
 
 
 def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
-    """One row."""
+    """Return one row of the table."""
     import bpy
-    from bl_ext.user_default.reflection_mesh.addon.lighting import Window
     from bl_ext.user_default.reflection_mesh.addon.operators.light import lighting
-    from bl_ext.user_default.reflection_mesh.addon.operators.made_light import on_the_mirror
-    from bl_ext.user_default.reflection_mesh.addon.reading import read_view
     from bl_ext.user_default.reflection_mesh.addon.rendering import denoise
     bpy.ops.wm.open_mainfile(filepath=str(extension_zip.ROOT / "sample_blends" / f"{name}.blend"))
     scene = bpy.context.scene
@@ -52,19 +47,17 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
     scene.render.resolution_percentage = 100
     bpy.ops.reflection_mesh.generate("EXEC_DEFAULT")
     results = [obj for obj in scene.objects if obj.reflection_mesh.role == "REFLECTION"]
-    window = Window.around(read_view(bpy.context), np.concatenate([on_the_mirror(result) for result in results]))
-    assert window is not None
     cycles, denoised, stages, lights = [], [], {}, []
     for _ in range(options.rounds):
         for result in results:
             result.hide_render = True
-        cycles.append(_render(scene, window, options.samples))
-        denoised.append(_render(scene, window, options.samples, denoise))
+        cycles.append(_render(scene, options.samples))
+        denoised.append(_render(scene, options.samples, denoise))
         for result in results:
             result.hide_render = False
         begun, stage = time.process_time(), "Reading the scene"
         lights.append(0.0)
-        for _, told in lighting(bpy.context, results, options.samples, "PICTURE", every=True):
+        for _, told in lighting(bpy.context, results, options.samples, every=True):
             now = time.process_time()
             stages[stage] = stages.get(stage, 0.0) + (now - begun) / options.rounds
             lights[-1] += now - begun
@@ -73,23 +66,19 @@ def measured(name: str, options: argparse.Namespace) -> tuple[str, ...]:
         stages[stage], lights[-1] = stages.get(stage, 0.0) + (now - begun) / options.rounds, lights[-1] + now - begun
     one, two, other = (statistics.median(each) for each in (cycles, denoised, lights))
     told = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in stages.items())
-    return (name, f"{window.width} x {window.height}", f"{one:.2f}", f"{two:.2f}", f"{other:.2f}",
+    return (name, f"{one:.2f}", f"{two:.2f}", f"{other:.2f}",
             f"{other / one:.2f}", f"{other / two:.2f}", told)
 
 
-def _render(scene, window, samples: int, denoise: Callable | None = None) -> float:
-    """Processor seconds of a render of the window as the file has it, with what makes its settings denoise, or without
-    denoising."""
+def _render(scene, samples: int, denoise: Callable | None = None) -> float:
+    """Return the processor seconds of a render of the file; `denoise` changes its settings so that it is denoised."""
     import bpy
-    from bl_ext.user_default.reflection_mesh.addon.rendering import crop_to
     copy = scene.copy()
     try:
         copy.cycles.samples, copy.cycles.use_denoising = samples, False
         if denoise is not None:
             denoise(copy.cycles)
         copy.render.engine = "CYCLES"
-        low = window.column, window.row
-        crop_to(copy.render, low, (low[0] + window.width, low[1] + window.height), window.size)
         begun = time.process_time()
         bpy.ops.render.render(scene=copy.name)
         return time.process_time() - begun

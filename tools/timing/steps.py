@@ -26,8 +26,7 @@ CAUSTIC = ("pool", "dish", "ring", "sunlight")
 # operators by what they need before them: (name, what must have run, options)
 REFLECTIONS = (
     ("generate", (), {}),
-    ("light", ("generate",), {"samples": 4, "kind": "PICTURE", "every": True}),
-    ("light", ("generate",), {"samples": 4, "kind": "OBJECTS", "every": True}),
+    ("light", ("generate",), {"samples": 4}),
     ("mirror_uvs", (), {}),
     ("mirror_uvs", (), {"target": "ORIGINAL"}),
     ("compare", ("generate",), {"samples": 1, "what": "REFLECTIONS"}),
@@ -117,7 +116,7 @@ def measured(sample: str, job: tuple, steps: Steps, scratch: Path) -> tuple[str,
         steps.taken.append((time.perf_counter() - begun, False, "all of it"))
     (seconds, stage), (render, _) = steps.longest(False), steps.longest(True)
     what = " ".join([name, *(str(value).lower() for key, value in options.items()
-                             if key in ("kind", "target", "what"))])
+                             if key in ("target", "what"))])
     return Path(sample).stem, what, str(len(steps.taken)), f"{seconds:.2f}", stage, f"{render:.2f}" if render else "–"
 
 

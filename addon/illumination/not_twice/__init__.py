@@ -7,6 +7,7 @@ from .glint import follow_lamp
 from .own_caustics import (
     bring_back_abandoned,
     bring_back_own_caustics,
+    is_shown_in,
     leave_out_own_caustics,
     leaves_out,
     leaves_out_any,
@@ -14,5 +15,5 @@ from .own_caustics import (
     makes_own_caustics,
 )
 
-__all__ = ["bring_back_abandoned", "bring_back_own_caustics", "follow_lamp", "leave_out", "leave_out_own_caustics",
-           "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "makes_own_caustics"]
+__all__ = ["bring_back_abandoned", "bring_back_own_caustics", "follow_lamp", "is_shown_in", "leave_out",
+           "leave_out_own_caustics", "leaves_out", "leaves_out_any", "let_lamps_light_mirrors", "makes_own_caustics"]

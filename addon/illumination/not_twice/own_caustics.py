@@ -109,6 +109,12 @@ def leaves_out(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
     return collection is not None and _is_ours(collection, lamp) and mirror.name in collection.objects
 
 
+def is_shown_in(lamp: bpy.types.Object, mirror: bpy.types.Object) -> bool:
+    """Return True if a mirror shows a lamp: one that is linked to it, or would be but for its caustics."""
+    collection = lamp.light_linking.receiver_collection
+    return collection is None or _is_ours(collection, lamp) or _lit_by(collection, mirror)
+
+
 def let_lamps_light_mirrors(lamps: list, back: ExitStack) -> None:
     """Let lamps light the mirrors from which they are excluded, until the stack is closed."""
     for lamp in dict.fromkeys(lamps):

@@ -111,18 +111,13 @@ CHOICE = {
         "Die Flächen von '{}' wissen nicht, was sie zeigen: erzeuge sie neu, mit allen Attributen.",
 }
 LIGHT = {
-    "Baking was cancelled: nothing has changed.": "Das Backen wurde abgebrochen: nichts hat sich geändert.",
     "The render was cancelled: nothing has changed.": "Das Rendern wurde abgebrochen: nichts hat sich geändert.",
     "Cycles is not available: enable the add-on 'Cycles Render Engine' in the preferences.":
         "Cycles fehlt: schalte das Add-on 'Cycles Render Engine' in den Einstellungen ein.",
-    "The reflected objects have more triangles than a map of their light has room for: choose Light: Picture.":
-        "Die gespiegelten Objekte haben mehr Dreiecke, als eine Karte ihres Lichts fasst: wähle Licht: Bild.",
-    "'{}' shows an object that is hidden now: show it, or generate the reflection again.":
-        "'{}' zeigt ein Objekt, das jetzt ausgeblendet ist: zeige es, oder erzeuge die Spiegelung neu.",
-    "A reflection of points, or of objects that have been deleted, or one that knows only what is seen, has no light "
-    "on objects: choose Light: Picture.":
-        "Eine Spiegelung aus Punkten, von gelöschten Objekten, oder die nur weiß, was zu sehen ist, hat kein Licht "
-        "auf Objekten: wähle Licht: Bild.",
+    "'{}' does not know what it shows: set Attributes to All and generate it again.":
+        "'{}' weiß nicht, was es zeigt: stelle Attribute auf Alle, und erzeuge es neu.",
+    "The camera sees none of the reflections: generate them again for this view.":
+        "Die Kamera sieht keine der Spiegelungen: erzeuge sie für diesen Blick neu.",
     "There is no lamp: add one (Add > Light) or show it in the viewport and in renders.":
         "Es gibt keine Lampe: füge eine hinzu (Hinzufügen > Licht), oder zeige sie in der Ansicht und im Render.",
     "No camera is selected: select the cameras, or bake what the scene's own one sees.":

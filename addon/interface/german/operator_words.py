@@ -45,11 +45,6 @@ OPERATORS = {
     "Light Reflection": "Spiegelung beleuchten",
     "Render the light that the mirrors show and put it on the reflections":
         "Rendert das Licht, das die Spiegel zeigen, und legt es auf die Spiegelungen",
-    "Light All": "Alle beleuchten",
-    "Also light reflections that look right without it, for files that carry images but not all materials, such as "
-    "glTF and USD":
-        "Beleuchtet auch Spiegelungen, die so schon richtig aussehen, für Dateien, die Bilder mitnehmen, aber nicht "
-        "alle Materialien, wie glTF und USD",
     "Generate Caustics": "Kaustik erzeugen",
     "Create meshes that show the light of lamps that the mirrors reflect onto other objects":
         "Erzeugt Netze, die das Licht von Lampen zeigen, das die Spiegel auf andere Objekte werfen",

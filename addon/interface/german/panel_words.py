@@ -47,8 +47,6 @@ PANELS = {
     "Material Preview": "Material-Vorschau",
     "The scene has changed since the reflection was lit. Click Light Reflection.":
         "Die Szene hat sich geändert, seit die Spiegelung beleuchtet wurde. Klicke Spiegelung beleuchten.",
-    "Lit, with gloss as seen from one place. Light: Picture shows it exactly.":
-        "Beleuchtet, mit Glanz wie von einer Stelle aus. Licht: Bild zeigt ihn genau.",
     "Lit.": "Beleuchtet.",
     "Not lit yet. Click Light Reflection.": "Noch nicht beleuchtet. Klicke Spiegelung beleuchten.",
     "Shows {names}": "Zeigt {names}",

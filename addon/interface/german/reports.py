@@ -19,30 +19,11 @@ DONE = {
         "Das Licht von '{}' passt nicht mehr: {}. Klicke Spiegelung beleuchten.",
     "it shows other faces": "sie zeigt andere Flächen",
     "{}: lit in {} s": "{}: beleuchtet in {} s",
-    "Nothing to light: the reflected materials emit what they show, and the mirrors add nothing.":
-        "Nichts zu beleuchten: die gespiegelten Materialien leuchten selbst, und die Spiegel tun nichts hinzu.",
-    "So many objects are reflected that their light was made for this frame alone: bake frames for an animation, or "
-    "choose Light: Objects to keep it while things move.":
-        "So viele Objekte werden gespiegelt, dass ihr Licht nur für dieses Bild gemacht ist: backe Einzelbilder für "
-        "eine Animation, oder wähle Licht: Objekte, damit es bleibt, während sich etwas bewegt.",
-    "With Placement: Virtual, what {} would show beside what is reflected, as the sky, lamps or itself, is not seen: "
-    "choose Layered to see it.":
-        "In der Lage Virtuell ist nicht zu sehen, was {} neben dem Gespiegelten zeigen würde, wie Himmel, Lampen oder "
-        "sich selbst: wähle die Lage Geschichtet, um es zu sehen.",
-    "The matte part of {} is lit where the reflection lies: choose Placement: Layered, or Light: Picture for a still.":
-        "Der matte Teil von {} wird beleuchtet, wo die Spiegelung liegt: wähle die Lage Geschichtet, oder für ein "
-        "Standbild Licht: Bild.",
-    "The gloss of {} is not what so close a curved mirror shows: choose Light: Picture for a still.":
-        "Der Glanz von {} ist nicht der, den ein so naher gekrümmter Spiegel zeigt: wähle Licht: Bild für ein "
-        "Standbild.",
-    "Fog before what mirrors show is not in light on the objects: choose Light: Picture for a still.":
-        "Nebel vor dem, was Spiegel zeigen, ist nicht im Licht auf den Objekten: wähle Licht: Bild für ein Standbild.",
-    "The material of {} bends its normals or displaces it, which light on the objects does not follow: choose Light: "
-    "Picture for a still, or model it.":
-        "Das Material von {} biegt seine Normalen oder verschiebt es, dem folgt Licht auf den Objekten nicht: wähle "
-        "für ein Standbild Licht: Bild, oder modelliere das.",
-    "What is random by island on {} is so in other colours: choose Light: Picture for its own.":
-        "Was auf {} nach Inseln zufällig ist, hat andere Farben: wähle Licht: Bild für die eigenen.",
+    "{} use Camera or Window coordinates or Camera Data, which light sees from elsewhere: use other coordinates.":
+        "{} verwenden Kamera- oder Fensterkoordinaten oder Kameradaten, die das Licht von anderswo sieht: verwende "
+        "andere Koordinaten.",
+    "The material of {} bends its normals or displaces it, which a reflection does not follow: model it.":
+        "Das Material von {} biegt seine Normalen oder verschiebt es, dem folgt eine Spiegelung nicht: modelliere das.",
     "{}: {} of light, {} s": "{}: {} aus Licht, {} s",
     "{made} of 1 frame baked into '{folder}', {seconds} s":
         "{made} von 1 Einzelbild gebacken, in '{folder}', {seconds} s",
@@ -106,14 +87,12 @@ KEPT = {
         "Materialslots auf Daten, um sie zurückzuhaben.",
     "'{}' has the role Mirror now: give what it consists of a mirror's material.":
         "'{}' hat jetzt die Rolle Spiegel: gib dem, woraus es besteht, das Material eines Spiegels.",
-    "'{}' has a roughness of {}, and its reflection is sharp: only Light: Picture blurs it as Cycles does.":
-        "'{}' hat die Rauheit {}, und die Spiegelung ist scharf: nur Licht: Bild macht sie so unscharf wie Cycles.",
-    "The roughness of '{}' is not known, and its reflection is sharp: only Light: Picture blurs it as Cycles does.":
-        "Die Rauheit von '{}' ist nicht bekannt, und die Spiegelung ist scharf: nur Licht: Bild macht sie so unscharf "
-        "wie Cycles.",
-    "{} mirrors are rough, '{}' among them, and their reflections are sharp: only Light: Picture blurs them as Cycles "
-    "does.": "{} Spiegel sind rau, darunter '{}', und ihre Spiegelungen sind scharf: nur Licht: Bild macht sie so "
-        "unscharf wie Cycles.",
+    "'{}' has a roughness of {}, and its reflection is sharp, where Cycles' is blurred.":
+        "'{}' hat die Rauheit {}, und die Spiegelung ist scharf, wo die von Cycles unscharf ist.",
+    "The roughness of '{}' is not known, and its reflection is sharp, where Cycles' may be blurred.":
+        "Die Rauheit von '{}' ist nicht bekannt, und die Spiegelung ist scharf, wo die von Cycles unscharf sein kann.",
+    "{} mirrors are rough, '{}' among them, and their reflections are sharp, where Cycles' are blurred.":
+        "{} Spiegel sind rau, darunter '{}', und ihre Spiegelungen sind scharf, wo die von Cycles unscharf sind.",
     "Left out because it is hidden: '{}'.": "Ausgelassen, weil ausgeblendet: '{}'.",
     "Left out because it has no faces: '{}'.": "Ausgelassen, weil ohne Flächen: '{}'.",
     "Left out because it is not in this scene: '{}'.": "Ausgelassen, weil nicht in dieser Szene: '{}'.",

@@ -26,8 +26,11 @@ SETTINGS = {
         "Eine kleine Scheibe für jeden Punkt, den der Spiegel zeigt, für dichte Scans mit Dreiecken kleiner als ein "
         "Pixel",
     "Bounces": "Tiefe",
-    "Number of reflections from mirror to mirror. With 1, mirrors do not show other mirrors":
-        "Zahl der Spiegelungen von Spiegel zu Spiegel. Mit 1 zeigen Spiegel keine anderen Spiegel",
+    "Bounces: Automatic": "Tiefe: Automatisch",
+    "Number of reflections from mirror to mirror. 0 is automatic: as many as there are to see. With 1, mirrors do not "
+    "show other mirrors":
+        "Zahl der Spiegelungen von Spiegel zu Spiegel. 0 heißt automatisch: so viele, wie zu sehen sind. Mit 1 zeigen "
+        "Spiegel keine anderen Spiegel",
     "Memory (GB)": "Speicher (GB)",
     "Memory that the computation may use. What needs more is computed more coarsely or refused":
         "Speicher, den die Berechnung brauchen darf. Was mehr braucht, wird gröber berechnet oder abgelehnt",
@@ -36,21 +39,24 @@ SETTINGS = {
     " are always kept":
         "Behält Flächen, die nähere ganz verdecken, für Objekte, die später entfernt werden. Flächen hinter "
         "durchsichtigen bleiben immer",
+    "World Faces": "Flächen der Welt",
+    "Faces that show the world, and what is left after the last bounce, so that the reflection covers its mirror":
+        "Flächen, die die Welt zeigen, und was nach der letzten Spiegelung bleibt, damit die Spiegelung ihren Spiegel "
+        "bedeckt",
+    "Never": "Nie",
+    "None: the mirror itself shows the world, and has to be rendered":
+        "Keine: Der Spiegel selbst zeigt die Welt und muss gerendert werden",
+    "When Lit": "Beleuchtet",
+    "Light Reflection adds them, so that no engine has to trace the mirror":
+        "Spiegelung beleuchten fügt sie hinzu, damit kein Renderer den Spiegel verfolgen muss",
+    "Always": "Immer",
+    "Generate Reflection adds them too": "Auch Spiegelung erzeugen fügt sie hinzu",
+    "When it has faces that show the world": "Wann sie Flächen hat, die die Welt zeigen",
     "Light Samples": "Licht-Samples",
     "Number of light paths for each pixel of the mirrors. The light is denoised":
         "Zahl der Lichtpfade für jedes Pixel der Spiegel. Das Licht wird entrauscht",
-    "Light": "Licht",
-    "Where the light is stored": "Wo das Licht gespeichert wird",
-    "Automatic": "Automatisch",
-    "Objects if the camera or a mirror is animated and few objects are reflected, otherwise Picture":
-        "Objekte, wenn die Kamera oder ein Spiegel animiert ist und wenige Objekte gespiegelt werden, sonst Bild",
-    "An image of the mirrors as Cycles renders them, right for this view only":
-        "Ein Bild der Spiegel, wie Cycles sie rendert, das nur für diesen Blick stimmt",
-    "Objects": "Objekte",
-    "Images baked on the reflected objects, right while the camera and mirrors move. Gloss stays as it is seen from "
-    "here":
-        "Bilder, auf die gespiegelten Objekte gebacken, die stimmen, während Kamera und Spiegel sich bewegen. Glanz "
-        "bleibt, wie er von hier aussieht",
+    "It has faces that nearer ones hide, with light of their own":
+        "Sie hat Flächen, die nähere verdecken, mit eigenem Licht",
     "Own Settings": "Eigene Einstellungen",
     "Use settings of this mirror instead of the scene's settings":
         "Nimmt Einstellungen dieses Spiegels statt denen der Szene",

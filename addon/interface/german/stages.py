@@ -2,6 +2,7 @@
 
 READING = {
     "Reading the scene": "Szene wird gelesen",
+    "Reading the reflection": "Spiegelung wird gelesen",
     "Reading the sheet": "Bogen wird gelesen",
     "Preparing the scene": "Szene wird vorbereitet",
     "Copying the scene": "Szene wird kopiert",
@@ -21,15 +22,11 @@ REFLECTING = {
     "Sorting by depth": "Nach Tiefe wird sortiert",
     "Building points": "Punkte werden gebaut",
     "Computing brightness": "Helligkeit wird berechnet",
-    "Measuring visible faces": "Sichtbare Flächen werden gemessen",
     "Finding visible faces": "Sichtbare Flächen werden gesucht",
     "Cutting faces": "Flächen werden geschnitten",
 }
 RENDERING = {
     "Rendering light": "Licht wird gerendert",
-    "Rendering the area of the reflections": "Bereich der Spiegelungen wird gerendert",
-    "Rendering caustics": "Kaustik wird gerendert",
-    "Baking light on '{}'": "Licht auf '{}' wird gebacken",
     "Rendering {}, {} of {}": "Rendern: {}, {} von {}",
     "the outline of the mirror": "der Umriss des Spiegels",
     "the faces in the mirror": "die Flächen im Spiegel",
@@ -48,7 +45,6 @@ RENDERING = {
     "Tracing rays for '{}'": "Strahlen für '{}' werden verfolgt",
 }
 ENDING = {
-    "Sharpening the light": "Licht wird geschärft",
     "Measuring displacements": "Verschiebungen werden gemessen",
     "Comparing the pictures": "Bilder werden verglichen",
     "Drawing error maps": "Fehlerkarten werden gezeichnet",

@@ -48,14 +48,14 @@ NO_USD = "This Blender cannot write USD files, nor play them: bake and play with
 
 @dataclass(frozen=True)
 class Reflections:
-    """The reflections in mirrors, frame by frame: what there is to bake where nothing else is asked for.
+    """Bakes reflections in mirrors frame by frame. This is the default.
 
     Attributes
     ----------
     mirrors : list of Assembly
     diffuse : list of bpy.types.Object
     lacks : dict
-        What mirrors lack, in sentences, by frames that were made.
+        Sentences on what is missing in mirrors, by frame.
     """
 
     mirrors: list[Assembly]
@@ -66,11 +66,11 @@ class Reflections:
 
     @property
     def keys(self) -> list[str]:
-        """Of the results in the records of frames."""
+        """Keys of the results in the records of frames: the names of the mirrors."""
         return [one.mirror.name for one in self.mirrors]
 
     def take(self, name: str) -> str:
-        """What the records of a sequence are called."""
+        """Return the name under which a sequence stores its records."""
         return name
 
     def file(self, key: str, take: str) -> str:
@@ -80,7 +80,7 @@ class Reflections:
         return plan.made_with(context, camera, [one.mirror for one in self.mirrors])
 
     def origin(self, context: bpy.types.Context, plan: Plan) -> dict:
-        """What the open frame is made from."""
+        """Return the inputs of the open frame, as text by mirror."""
         return frame_origin(context, self._chosen(context), bool(plan.samples))
 
     def _chosen(self, context: bpy.types.Context) -> Participants | None:
@@ -95,7 +95,7 @@ class Reflections:
         return {obj.reflection_mesh.mirror.name: obj for obj in results}
 
     def materials_of(self, result: bpy.types.Object | None) -> list | None:
-        """What the record tells of a result's materials; None: these."""
+        """Return the materials to record for a result; None for those of its mesh."""
         return None
 
     def clear(self, context: bpy.types.Context, results: list) -> None:
@@ -104,25 +104,25 @@ class Reflections:
 
 def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord], None] = lambda record: None,
            remark: Callable[[str], None] = lambda sentence: None) -> Steps[list]:
-    """Bake all frames of a plan, yielding (fraction, stage); closed at any step, the file is as it was, and the frames
-    that are done stay in their folder.
+    """Bake all frames of a plan, yielding (fraction, stage). If closed at any step, restore the file and keep the
+    finished frames in their folder.
 
     Parameters
     ----------
     tell : callable
-        Is given the record of each frame that is done.
+        Called with the record of each finished frame.
     remark : callable
-        Is given a sentence on frames that are kept although the scene has changed since, and on what others lack.
+        Called with sentences on frames that are kept although the scene has changed, and on what frames lack.
 
     Returns
     -------
     sequences : list of Sequence
-        What `bake_playing.playing` lets the file play.
+        Input of `bake_playing.playing`.
 
     Raises
     ------
     core.ReflectionError
-        Where a frame cannot be baked.
+        If a frame cannot be baked.
     """
     if context.mode != "OBJECT":
         raise core.ReflectionError(IN_OBJECT_MODE)
@@ -130,7 +130,7 @@ def baking(context: bpy.types.Context, plan: Plan, tell: Callable[[FrameRecord],
         raise core.ReflectionError(NO_USD)
     mirrors, diffuse = candidates(context, unmirrored=bool(plan.lamps))
     if not (mirrors and diffuse):
-        choose(context)     # which says what is missing
+        choose(context)     # raises an error that says what is missing
     joint = assembled(context, Participants(mirrors, diffuse, []), plan.settings)
     twice = [name for name, count in Counter(mirror.name for mirror in mirrors).items() if count > 1]
     if twice:
@@ -205,8 +205,9 @@ def _frame(context: bpy.types.Context, plan: Plan, take: tuple,
 
 
 def _results(context: bpy.types.Context, plan: Plan, chosen, results: list, lacks: list) -> Steps[None]:
-    """Generate and light the open frame, adding to `results` as soon as they are there, and to `lacks` what is said to
-    be missing; none where nothing is seen."""
+    """Generate and light the open frame. Append to `results` as soon as they exist, and to `lacks` sentences on what is
+    missing. Append no results if nothing is visible.
+    """
     if chosen is None:
         return
     try:
@@ -220,4 +221,4 @@ def _results(context: bpy.types.Context, plan: Plan, chosen, results: list, lack
     lacks += outcome.lacks
     context.view_layer.update()
     if plan.samples:
-        yield from part(lighting(context, results, plan.samples, "PICTURE", lamps_apart=False), 0.5, 0.5)
+        yield from part(lighting(context, results, plan.samples, flat=True), 0.5, 0.5)

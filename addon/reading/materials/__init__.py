@@ -2,7 +2,7 @@
 from .carried_light import emits_alike
 from .dielectric import index_of, upright
 from .image_samples import look_again
-from .material_nodes import all_nodes, asked_attributes, feeding, one_output, shown_output
+from .material_nodes import all_nodes, asked_attributes, feeding, is_displaced, one_output, shown_output
 from .materials_of import (
     all_fog,
     all_materials_of,
@@ -33,12 +33,14 @@ from .mirror_materials import (
 from .opaque_materials import fog_of, is_clear, is_colourless, is_fog, is_opaque
 from .own_light import glows, outshines_paper, sends_light
 from .shader_graph import MIXING, Groups, fed_by, outermost, surface_shader, surface_shaders
+from .steady_light import steady_angle
 from .transparency import transparency
 
 __all__ = ["FULL_METALLIC", "Groups", "MIRRORS", "MIXING", "SHARP_ROUGHNESS", "all_fog", "all_materials_of",
            "all_nodes", "asked_attributes", "emits", "emits_alike", "fed_by", "feeding", "fog_of", "glows",
            "goes_by_name", "has_sharp_coat", "index_of", "instanced_materials", "instances_otherwise", "is_clear",
-           "is_colourless", "is_exact", "is_fog", "is_metal", "is_mirror", "is_opaque", "is_sharp", "least_roughness",
-           "look_again", "materials_of", "materials_on_faces", "materials_shown", "mirror_roughness", "mirrors_in_part",
-           "one_output", "outermost", "outshines_paper", "own_materials", "reflecting_materials", "sends_light",
-           "shines", "shown_output", "surface_shader", "surface_shaders", "transparency", "upright", "which_reflect"]
+           "is_colourless", "is_displaced", "is_exact", "is_fog", "is_metal", "is_mirror", "is_opaque", "is_sharp",
+           "least_roughness", "look_again", "materials_of", "materials_on_faces", "materials_shown",
+           "mirror_roughness", "mirrors_in_part", "one_output", "outermost", "outshines_paper", "own_materials",
+           "reflecting_materials", "sends_light", "shines", "shown_output", "steady_angle", "surface_shader",
+           "surface_shaders", "transparency", "upright", "which_reflect"]

@@ -35,6 +35,12 @@ def shown_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
     return tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
 
 
+def is_displaced(material: bpy.types.Material | None) -> bool:
+    """Return True for a material that moves surfaces in renders, and not only bends their normals."""
+    output = shown_output(material.node_tree) if material is not None and compat.uses_nodes(material) else None
+    return (output is not None and material.displacement_method != "BUMP" and output.inputs["Displacement"].is_linked)
+
+
 def one_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
     """Keep only the shown output of a (copied) tree, make it the output for all engines, and return it."""
     output = shown_output(tree)

@@ -8,6 +8,9 @@ from ...reading.meshes import DiffuseScene, MirrorSurface
 from .attribute import Attribute
 from .mesh_arrays import MeshArrays, origin_of, point_attributes, shown_layers
 
+DISC_SCALE = "disc_scale"
+"""The attribute with the size of each point's disc along its own axes."""
+
 
 def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSurface, view: View) -> MeshArrays:
     """Return the arrays of a result without faces; parameters as for `mesh_arrays`."""
@@ -20,7 +23,7 @@ def point_arrays(result: ReflectionMesh, scene: DiffuseScene, surface: MirrorSur
         *point_attributes(result),
         Attribute("radius", "FLOAT", "POINT", discs.radius.astype(np.float32)),
         Attribute("disc_rotation", "QUATERNION", "POINT", rotation.astype(np.float32)),
-        Attribute("disc_scale", "FLOAT_VECTOR", "POINT", scale.astype(np.float32)),
+        Attribute(DISC_SCALE, "FLOAT_VECTOR", "POINT", scale.astype(np.float32)),
         Attribute("source_object", "INT", "POINT", scene.source_object[source].astype(np.int32)),
         Attribute("source_face", "INT", "POINT", scene.source_face[source].astype(np.int32)),
         Attribute("mirror_face", "INT", "POINT", surface.triangle[discs.mirror_face].astype(np.int32)),

@@ -1,4 +1,4 @@
-"""Which attributes of a result are seen: what its materials read, and nothing of how it came about."""
+"""Find the attributes of a result that are visible: those that its materials read, but not the method's own records."""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -7,21 +7,22 @@ import bpy
 
 from ... import compat
 from ...reading.materials import all_nodes, asked_attributes, emits
-from .later_mirrors import LATER_COSINE, LATER_MATERIAL, NORMAL
+from .later_mirrors import ARRIVAL, LATER_COSINE, LATER_MATERIAL, NORMAL
 
-# what results know of how they came about, and nothing that is seen asks for
+# attributes that record how the result was computed; no shader reads them by default
 OF_METHOD = frozenset({"reflected_position", "mirror_position", "path_length", "image_parity", "source_object",
-                       "source_face", "bounces", "mirror_face", NORMAL})
+                       "source_face", "bounces", "mirror_face", NORMAL, ARRIVAL})
 LATER = {LATER_MATERIAL.format(""), LATER_COSINE.format("")}
-# nodes that take the active UV map, or may, and those that take normals
+# nodes that may read the active UV map, and nodes that read normals
 READS_UV = {"TEX_COORD", "UVMAP", "NORMAL_MAP", "TANGENT", "TEX_IMAGE", "TEX_GABOR", "SCRIPT"}
 READS_NORMALS = {"TEX_COORD", "NEW_GEOMETRY", "FRESNEL", "LAYER_WEIGHT", "BUMP", "NORMAL_MAP", "TANGENT", "BEVEL",
                  "AMBIENT_OCCLUSION", "SCRIPT"}
 
 
 def shown_attributes(attributes: tuple, materials: list) -> tuple:
-    """Those of the attributes of a result that `materials` read; the first UV map and the first colours of them are the
-    active ones."""
+    """Return the attributes of a result that `materials` read. The first UV map and the first colour attribute are the
+    active ones.
+    """
     asked = asked_attributes(materials)
     types = {node.type for node in _nodes(materials)}
     nameless = {node.type for node in _nodes(materials)

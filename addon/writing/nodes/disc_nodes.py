@@ -6,6 +6,7 @@ import math
 import bpy
 
 from ...faults import AllOrNothing
+from ..arrays import DISC_SCALE
 from ..arrays import UV_MAP as LIGHT
 from .node_builder import Builder
 
@@ -69,9 +70,9 @@ def _draw_discs(tree: bpy.types.NodeTree, uv_maps: list) -> None:
     builder.join(points, instances.inputs["Points"])
     builder.join(disc.outputs["Mesh"], instances.inputs["Instance"])
     builder.join(builder.read("disc_rotation", "QUATERNION"), instances.inputs["Rotation"])
-    builder.join(builder.read("disc_scale", "FLOAT_VECTOR"), instances.inputs["Scale"])
+    builder.join(builder.read(DISC_SCALE, "FLOAT_VECTOR"), instances.inputs["Scale"])
     geometry = instances.outputs["Instances"]
-    for attribute in ("disc_rotation", "disc_scale"):
+    for attribute in ("disc_rotation", DISC_SCALE):
         geometry = builder.through("GeometryNodeRemoveAttribute", geometry, Name=attribute)
         points = builder.through("GeometryNodeRemoveAttribute", points, Name=attribute)
     geometry = builder.through("GeometryNodeRealizeInstances", geometry)

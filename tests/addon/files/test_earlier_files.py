@@ -23,7 +23,7 @@ def test_settings_roles_and_results_are_taken_over(earlier):
     settings = earlier.reflection_mesh
     assert {name: getattr(settings, name) for name in SETTINGS} == SETTINGS
     # what that version did not have is as in a new file
-    assert (settings.light_kind, settings.light_samples, settings.hidden_faces) == ("AUTO", 64, False)
+    assert (settings.light_samples, settings.hidden_faces) == (64, False)
     assert [earlier.objects[name].reflection_mesh.role for name in ("Box", "Mirror", "Window")] == [
         "DIFFUSE", "MIRROR", "MIRROR"]
     for name in ("Mirror", "Window"):

@@ -69,22 +69,6 @@ def test_light_plays_too(moving, room, tmp_path):
     assert psnr(dark, truth["4 picture"]) < psnr(shown[4], truth["4 picture"]) - 6.0
 
 
-def test_a_frame_makes_no_more_pictures_than_it_plays(moving, room, monkeypatch, tmp_path):
-    """Of a lamp a still has texels of its own, and others beside it."""
-    lit_scene()
-    shining = parts.material("Fire")
-    shining.node_tree.nodes[0].inputs["Strength"].default_value = 30.0
-    bpy.data.objects["Box"].material_slots[1].material = shining
-    bpy.ops.wm.save_mainfile()
-    light, made = room("addon.operators.made_light"), []
-    found = light.texels_of
-    monkeypatch.setattr(light, "texels_of", lambda *given: made.append(given) or found(*given))
-    assert bake(room, "--output", tmp_path / "out", "--frames", "4", "--light", "4", "--frames-only") == 0
-    assert len(made) == 1
-    parts.generate()
-    assert bpy.ops.reflection_mesh.light(samples=4, kind="PICTURE") == {"FINISHED"} and len(made) == 4
-
-
 @pytest.mark.thorough
 def test_where_nothing_is_seen_nothing_is_shown(moving, room, tmp_path):
     """The cube leaves, or is hidden: those frames are baked, and empty."""

@@ -19,7 +19,7 @@ def test_stretched_time(moving, room, tmp_path):
     told = played(out / "scene reflections.blend", FRAMES, tmp_path / "played", ["Mirror Reflection"])
     for frame in FRAMES:
         bpy.ops.wm.open_mainfile(filepath=str(moving))
-        wanted = expected(frame)
+        wanted = expected(frame, light=True)
         assert_same(told, frame, "Mirror Reflection", {what: wanted[what] for what in ("places", "origin")})
     bpy.ops.wm.open_mainfile(filepath=str(out / "scene reflections.blend"))
     light = bpy.data.objects["Mirror Reflection"].material_slots[0].material

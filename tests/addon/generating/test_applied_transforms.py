@@ -71,7 +71,7 @@ def test_light_lies_where_it_did(scene):
     for applied in (False, True):
         if applied:
             apply(result)
-        bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE", every=True)
+        bpy.ops.reflection_mesh.light(samples=1)
         found.append(np.array([spot.vector for spot in result.data.uv_layers["Reflection Light"].uv]))
     assert found[0].shape == found[1].shape and np.abs(found[0] - found[1]).max() < 1e-4
 

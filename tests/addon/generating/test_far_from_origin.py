@@ -88,7 +88,7 @@ def test_a_reflection_far_out_is_the_one_at_the_origin(blank, offset):
 def test_generate_light_caustics_and_compare_say_that_renders_are_noisy(blank, capfd, tmp_path, offset, said):
     box, mirror = scene(offset)
     sentence = "Blender rounds places so far from the origin to 0.25 units"
-    for run in (parts.generate, lambda: bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE"),
+    for run in (parts.generate, lambda: bpy.ops.reflection_mesh.light(samples=1),
                 lambda: bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=1),
                 lambda: (parts.select(box, mirror), bpy.ops.reflection_mesh.caustics())):
         run()

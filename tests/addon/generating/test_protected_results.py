@@ -110,7 +110,7 @@ def test_operators_take_a_selected_mirror_for_its_result(scene):
     press("generate")
     made = {obj.reflection_mesh.mirror: obj for obj in results()}
     assert set(made) == {ball, mirror, other} and set(scene.selected_objects) == {ball, mirror}
-    press("light", samples=1, kind="PICTURE")
+    press("light", samples=1)
     assert [obj.reflection_mesh.light_material is not None for obj in map(made.get, (ball, mirror, other))] == [
         True, True, False]
     # again, by the mirror alone: as it was made

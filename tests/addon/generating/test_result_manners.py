@@ -214,26 +214,6 @@ def test_normals_are_seen_where_lamps_shine(scene):
     assert ("custom_normal" in result.data.attributes) == shaded
 
 
-def test_what_knows_only_what_is_seen_is_lit_in_the_picture(scene, room):
-    mirror, cube = scene
-    bpy.context.scene.render.resolution_percentage = 25
-    bpy.ops.object.light_add(type="SUN")
-    parts.select(cube, mirror)
-    result = parts.generate()
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
-    spots = result.data.uv_layers["Reflection Light"].uv
-    whole = [tuple(round(value, 4) for value in spot.vector) for spot in spots]
-    parts.select(result)
-    assert parts.generate(attributes="SHOWN") == result and result.material_slots[0].link == "OBJECT"
-    bpy.ops.reflection_mesh.light(samples=1, kind="AUTO")
-    spots = result.data.uv_layers["Reflection Light"].uv
-    again = [tuple(round(value, 4) for value in spot.vector) for spot in spots]
-    # LAYERED lies a little before the mirror, which may move the window's edge by a pixel
-    assert len(whole) == len(again)
-    assert max(abs(a - b) for one, other in zip(whole, again) for a, b in zip(one, other)) < 0.05
-    assert "knows only what is seen" in parts.refusal(bpy.ops.reflection_mesh.light, kind="OBJECTS")
-
-
 def test_light_is_for_the_camera_that_looks(scene):
     first = bpy.context.scene.camera
     result = parts.generate()
@@ -246,12 +226,12 @@ def test_light_is_for_the_camera_that_looks(scene):
 def test_light_lies_where_the_mirror_is_although_the_result_was_moved(scene):
     bpy.context.scene.render.resolution_percentage = 25
     result = parts.generate()
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    bpy.ops.reflection_mesh.light(samples=1)
     spots = [tuple(spot.vector) for spot in result.data.uv_layers["Reflection Light"].uv]
     result.location.z += 5.0
     bpy.context.view_layer.update()
     parts.select(result)
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE", every=True)
+    bpy.ops.reflection_mesh.light(samples=1)
     moved = [tuple(spot.vector) for spot in result.data.uv_layers["Reflection Light"].uv]
     assert len(spots) == len(moved)
     assert max(abs(a - b) for one, other in zip(spots, moved) for a, b in zip(one, other)) < 1e-4

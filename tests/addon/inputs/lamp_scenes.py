@@ -247,7 +247,7 @@ def _settings(item) -> dict:
             and isinstance(getattr(item, name, None), int | float | str | bool)}
 
 
-def leaves_no_trace(blank, room, monkeypatch, failing: tuple[str, str], kind: str, build=scene_of) -> None:
+def leaves_no_trace(blank, room, monkeypatch, failing: tuple[str, str], build=scene_of) -> None:
     """Where a function, by its module and name, fails, light changes nothing and says why."""
     build(blank)
     parts.generate()
@@ -257,5 +257,5 @@ def leaves_no_trace(blank, room, monkeypatch, failing: tuple[str, str], kind: st
         raise room("core").ReflectionError("It failed: try again.")
     monkeypatch.setattr(room(failing[0]), failing[1], fails)
     with pytest.raises(RuntimeError, match="It failed: try again."):
-        bpy.ops.reflection_mesh.light(samples=1, kind=kind)
+        bpy.ops.reflection_mesh.light(samples=1)
     assert lit_state() == before

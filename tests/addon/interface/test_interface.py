@@ -40,7 +40,7 @@ def test_blender_is_given_the_words_in_both_contexts(room, monkeypatch):
         monkeypatch.setattr(faults, name, [])
     translations.register()
     (words,) = told.values()
-    assert {("*", "Tolerance"), ("Operator", "Generate Reflection"), ("*", "Sharpening the light")} <= set(words["de"])
+    assert {("*", "Tolerance"), ("Operator", "Generate Reflection"), ("*", "Rendering light")} <= set(words["de"])
     assert set(words["de"]) == set(words["de_DE"]) and faults._known and faults._stages
     translations.unregister()
     assert told == {} and not (faults._known or faults._stages)

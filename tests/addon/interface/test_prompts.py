@@ -92,12 +92,12 @@ STEPS = (
     ("SOLID", "Select a mirror, then click Generate Reflection.", lambda: None),
     ("SOLID", "Solid shading shows reflections without light and textures.", lambda: parts.generate()),
     ("MATERIAL", "Not lit yet. Click Light Reflection.", lambda: None),
-    ("MATERIAL", "Lit.", lambda: bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")),
+    ("MATERIAL", "Lit.", lambda: bpy.ops.reflection_mesh.light(samples=1)),
     # mirrors show the light of caustics
     ("WIREFRAME", "1 result is out of date: an object has changed. Click Update Reflections.",
      lambda: bpy.ops.reflection_mesh.caustics()),
     ("WIREFRAME", "Wireframe shading shows no caustics, and no light in reflections.",
-     lambda: bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")),
+     lambda: bpy.ops.reflection_mesh.light(samples=1)),
     ("WIREFRAME", "2 results are out of date: the mirror has changed. Click Update Reflections.", lambda: _move()),
     ("MATERIAL", "Select a mirror, then click Generate Reflection.", lambda: bpy.ops.reflection_mesh.clear()),
 )

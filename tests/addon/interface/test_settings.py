@@ -10,8 +10,8 @@ import pytest
 from tools.extension_zip import PACKAGE
 
 OTHERS = {"tolerance": 2.0, "placement": "SURFACE", "method": "PARALLEL", "depth": 3, "memory": 4.0,
-          "hidden_faces": True, "light_samples": 7, "light_kind": "PICTURE",
-          "attributes": "SHOWN", "join_parts": False}
+          "hidden_faces": True, "light_samples": 7,
+          "attributes": "SHOWN", "world_faces": "NEVER", "join_parts": False}
 
 
 @pytest.fixture
@@ -175,7 +175,7 @@ def test_the_panel_after_a_run_shows_what_was_used_and_changes_that_alone(pair, 
     wanted = operator.wanted(pair)
     operator.show_used(wanted, [left, right])
     assert operator.values == {**{name: OTHERS[name] for name in room("addon.settings").SETTINGS}, "tolerance": 0.75,
-                               "attributes": OTHERS["attributes"], "join_parts": OTHERS["join_parts"]}
+                               **{name: OTHERS[name] for name in room("addon.settings").WRITTEN_SETTINGS}}
     # run again without a change, and with one
     assert operator.wanted(pair).given == {"tolerance": 0.75}
     operator.method = "GENERAL"
@@ -189,29 +189,29 @@ def test_the_panel_after_a_run_shows_what_was_used_and_changes_that_alone(pair, 
 
 def test_light_uses_the_files_settings(pair, room, monkeypatch):
     parts.generate()
-    pair.scene.reflection_mesh.light_samples, pair.scene.reflection_mesh.light_kind = 3, "PICTURE"
+    pair.scene.reflection_mesh.light_samples = 3
     right = bpy.data.objects["Right"].reflection_mesh
     right.own_settings, right.light_samples = True, 9
     told: list = []
 
     def instead(context, groups, every=False):
-        told.append([([obj.name for obj in results], samples, kind) for results, samples, kind in groups])
+        told.append([([obj.name for obj in results], samples) for results, samples in groups])
         return []
         yield
     for way in ("operators.light", "command_line.verbs"):
         monkeypatch.setattr(room(f"addon.{way}"), "lighting_groups", instead)
     bpy.ops.reflection_mesh.light()
     bpy.ops.reflection_mesh.light(samples=5)
-    bpy.ops.reflection_mesh.light(samples=5, kind="OBJECTS")
-    apart = [(["Left Reflection"], 3, "PICTURE"), (["Right Reflection"], 9, "PICTURE")]
+    bpy.ops.reflection_mesh.light(samples=5)
+    apart = [(["Left Reflection"], 3), (["Right Reflection"], 9)]
     both = ["Left Reflection", "Right Reflection"]
-    assert told == [apart, [(both, 5, "PICTURE")], [(both, 5, "OBJECTS")]]
+    assert told == [apart, [(both, 5)], [(both, 5)]]
     told.clear()
     run = room("addon.command_line.verbs").run
     parts.select()
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(bpy.app.tempdir, "lit.blend")))
     run(["light"]), run(["generate", "--light"]), run(["generate", "--light", "5"]), run(["light", "--samples", "5"])
-    assert told == [apart, apart, [(both, 5, "PICTURE")], [(both, 5, "PICTURE")]]
+    assert told == [apart, apart, [(both, 5)], [(both, 5)]]
 
 
 def test_two_groups_are_lit_or_none(pair, room):
@@ -219,7 +219,7 @@ def test_two_groups_are_lit_or_none(pair, room):
     bpy.data.objects["Box"].data.materials[0] = parts.material("Matt", "DIFFUSE")
     parts.generate()
     results = [bpy.data.objects[f"{name} Reflection"] for name in ("Left", "Right")]
-    groups, light = [([obj], 1, "PICTURE") for obj in results], room("addon.operators.light").lighting_groups
+    groups, light = [([obj], 1) for obj in results], room("addon.operators.light").lighting_groups
     before = parts.state()
     steps = light(pair, groups)
     writing = 0
@@ -238,7 +238,7 @@ def test_bakes_know_the_settings_of_mirrors_with_their_own(pair, room):
     plan = bake.Plan("folder", [1], wanted, 1)
     same = plan.made_with(pair, None, mirrors)
     # what was baked when settings were the scene's alone is still known
-    assert same == bake.Plan("folder", [1], room("core").Settings(), 1).made_with(pair, None, mirrors)
+    assert same == bake.Plan("folder", [1], room("core").Settings(depth=0), 1).made_with(pair, None, mirrors)
     right = mirrors[1].reflection_mesh
     right.own_settings, right.placement, right.light_samples = True, "VIRTUAL", 99
     own = plan.made_with(pair, None, mirrors)
@@ -345,7 +345,7 @@ def test_old_files_settings_are_taken_over(pair, tmp_path):
     settings = bpy.context.scene.reflection_mesh
     assert {name: getattr(settings, name) for name in list(OTHERS)[:6]} == {
         "tolerance": 4.0, "placement": "SURFACE", "method": "POINTS", "depth": 3, "memory": 8.0, "hidden_faces": True}
-    assert (settings.light_samples, settings.light_kind, settings.comparison) == (64, "AUTO", "{}")
+    assert (settings.light_samples, settings.comparison) == (64, "{}")
     assert [(scene.reflection_mesh.placement, scene.reflection_mesh.method)
             for scene in (bpy.data.scenes["0 1"], bpy.data.scenes["2 0"])] == [("LAYERED", "PARALLEL"),
                                                                                ("VIRTUAL", "GENERAL")]

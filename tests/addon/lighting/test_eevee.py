@@ -9,8 +9,6 @@ import parts
 import pytest
 from lamp_scenes import principled, scene_of
 
-pytestmark = pytest.mark.thorough
-
 
 @pytest.fixture(scope="module", autouse=True)
 def rendering():
@@ -18,10 +16,12 @@ def rendering():
         pytest.skip("EEVEE cannot render here: it needs OpenGL.")
 
 
-def lit_ball(context: bpy.types.Context, kind: str, shining: bool) -> bpy.types.Object:
+def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:
     """A ball that shows a floor of tiles, lit, and a box, which may shine far too brightly; its result alone is
     rendered, and returned."""
     scene_of(context)
+    # the outline of a lamp that is far brighter than white is noise: each pixel has few samples of it
+    bpy.data.objects["Area"].visible_glossy = False
     box, floor, wall = (bpy.data.objects[name] for name in ("Box", "Floor", "Mirror"))
     tiles = principled("Tiles")
     checks = tiles.node_tree.nodes.new("ShaderNodeTexChecker")
@@ -39,28 +39,28 @@ def lit_ball(context: bpy.types.Context, kind: str, shining: bool) -> bpy.types.
     bpy.data.objects.remove(wall)
     parts.select(box, floor, ball)
     result = parts.generate()
-    bpy.ops.reflection_mesh.light(samples=8, kind=kind)
+    bpy.ops.reflection_mesh.light(samples=8)
     for obj in context.scene.objects:
         obj.hide_render = obj != result and obj != context.scene.camera
     context.scene.render.film_transparent, context.scene.view_settings.view_transform = True, "Raw"
     return result
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("kind, shining, least", [("PICTURE", False, 40.0), ("PICTURE", True, 40.0),
-                                                  ("OBJECTS", False, 36.0)])
-def test_a_lit_ball_looks_as_in_cycles(blank, room, kind, shining, least):
-    """By EEVEE's own look-up of the image it is 22 to 29 dB from Cycles."""
-    lit_ball(blank, kind, shining)
-    assert ("Reflection Light Shining" in bpy.data.images) == shining
+@pytest.mark.parametrize("shining, least", [(False, 50.0), (True, 60.0)])
+def test_a_lit_ball_looks_as_in_cycles(blank, room, shining, least):
+    """By EEVEE's own look-up of the image it is 22 to 29 dB from Cycles. Pixels beside what is brighter than white are
+    left out: of its outline each engine has a few samples of its own."""
+    lit_ball(blank, shining)
     by_cycles, by_eevee = (eevee.linear(room, one) for one in (False, True))
     inside = (by_cycles[..., 3] > 0.99) & (by_eevee[..., 3] > 0.99)
+    bright = np.pad((by_cycles[..., :3].max(axis=2) > 1.0) & inside, 2)
+    height, width = inside.shape
+    inside &= ~np.logical_or.reduce([bright[y:y + height, x:x + width] for y in range(5) for x in range(5)])
     assert inside.sum() > 500
     error = (np.clip(by_cycles, 0.0, 1.0) - np.clip(by_eevee, 0.0, 1.0))[..., :3][inside]
     assert -10.0 * np.log10((error**2).mean()) > least
 
 
-@pytest.mark.thorough
 def test_caustics_are_as_bright_as_in_cycles(blank, room):
     caustic_scene.scene_of()
     bpy.ops.reflection_mesh.caustics()
@@ -78,7 +78,6 @@ def test_caustics_are_as_bright_as_in_cycles(blank, room):
     assert np.allclose(by_eevee.sum(axis=(0, 1)), by_cycles.sum(axis=(0, 1)), rtol=0.03)
 
 
-@pytest.mark.thorough
 def test_a_preview_is_as_open_as_its_mirror(blank, room):
     """A card that shines, seen straight on in a golden mirror that is half open, alone."""
     wall, gold = scene_of(blank, "", "Tint"), (0.95, 0.7, 0.35)

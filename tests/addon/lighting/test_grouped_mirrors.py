@@ -23,17 +23,15 @@ def wall(blank) -> bpy.types.Object:
     return wall
 
 
-@pytest.mark.thorough
-def test_light_on_objects_is_tinted_as_in_cycles(wall, room):
+def test_light_is_tinted_as_in_cycles(wall, room):
     into_a_group(wall.data.materials[0], 0.0)
     reference, other = picture(room), picture(room, seed=7)
     result = parts.generate()
     assert result.reflection_mesh.mirror == wall
-    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
+    bpy.ops.reflection_mesh.light(samples=64)
     assert psnr(picture(room), reference) > psnr(other, reference) - 1.5
 
 
-@pytest.mark.thorough
 def test_a_preview_is_that_of_the_same_shader_without_a_group(wall, room):
     shown = []
     for grouped in (False, True):

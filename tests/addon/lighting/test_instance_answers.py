@@ -96,7 +96,7 @@ def test_what_materials_ask_is_answered_as_by_cycles(blank, room, instances, kin
     shows_it = np.abs(reference - _without(carrier, room)).max(axis=2) > 0.1
     shows_it[:SIZE // 5], shows_it[-SIZE // 5:] = False, False
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
+    bpy.ops.reflection_mesh.light(samples=64)
     lit, noise = (np.sqrt(((shown - reference)[shows_it]**2).mean()) for shown in (picture(room), other))
     assert shows_it.sum() > 50 and lit < max(10.0**(-34.0 / 20.0), 1.3 * noise)
 

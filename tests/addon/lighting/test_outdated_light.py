@@ -23,7 +23,7 @@ def lit(blank, room):
     node.image = image
     link(tree, node.outputs["Color"], shader_of(bpy.data.materials["Source"]).inputs["Base Color"])
     result = parts.generate(tolerance=8.0)
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    bpy.ops.reflection_mesh.light(samples=1)
     material = result.reflection_mesh.light_material
 
     def generated() -> None:
@@ -75,7 +75,7 @@ def test_there_and_back(lit, change):
     """Check that light is current again after an undone change, as by G and ESC, and that Generate keeps it."""
     if change == "pixels":
         painted(lit.image)[1]()
-        bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+        bpy.ops.reflection_mesh.light(samples=1)
         lit.material = lit.result.reflection_mesh.light_material
     there, back = CHANGES[change](lit)
     there()
@@ -86,14 +86,14 @@ def test_there_and_back(lit, change):
     assert {slot.material == lit.material for slot in lit.result.material_slots} == {True}
 
 
-@pytest.mark.parametrize("change", ["camera", "lamp"])
+@pytest.mark.parametrize("change", ["place", "lamp"])
 def test_light_is_found_again_after_it_was_dropped(lit, change, capfd):
     there, back = CHANGES[change](lit)
     there()
     lit.generated()
     said = "".join(capfd.readouterr())
     assert not lit.shown() and "The light of 'Mirror Reflection' no longer fits: " in said
-    assert {"camera": "the camera has changed.", "lamp": "the lamps or the world have changed."}[change] in said
+    assert {"place": "an object has changed.", "lamp": "the lamps or the world have changed."}[change] in said
     back()
     lit.generated()
     assert lit.shown() and not lit.outdated() and "no longer fits" not in "".join(capfd.readouterr())
@@ -153,22 +153,19 @@ def test_of_an_old_file_nothing_is_said(lit):
     assert not lit.shown()
 
 
-@pytest.mark.parametrize("kind", ["PICTURE", "OBJECTS"])
 @pytest.mark.parametrize("change", ["camera", "place", "lamp"])
-def test_update_lights_again_as_it_was_lit(lit, room, kind, change):
-    bpy.ops.reflection_mesh.light(samples=3, kind=kind)
+def test_update_lights_again_as_it_was_lit(lit, change):
+    bpy.ops.reflection_mesh.light(samples=3)
     lit.scene.reflection_mesh.light_samples = 5
     first = lit.result.reflection_mesh.light_material
     parts.select(lit.box)
     CHANGES[change](lit)[0]()
-    kept = kind == "OBJECTS" and change == "camera"
-    assert lit.outdated() != kept
+    assert lit.outdated()
     assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
     record = lit.result.reflection_mesh
     assert {slot.material == record.light_material for slot in lit.result.material_slots} == {True}
-    assert not lit.outdated() and (record.light_material == first) == kept
-    assert json.loads(record.lit_from)["lit_with"] == {"samples": 3, "kind": kind, "every": False}
-    assert (record.light_map is not None) == (kind == "OBJECTS")
+    assert not lit.outdated() and record.light_material != first
+    assert json.loads(record.lit_from)["lit_with"] == {"samples": 3}
 
 
 def test_update_says_why_light_cannot_be_made(lit, monkeypatch, room, capfd):
@@ -178,28 +175,16 @@ def test_update_says_why_light_cannot_be_made(lit, monkeypatch, room, capfd):
         raise core.ReflectionError("Cycles is not available.")
         yield
     monkeypatch.setattr(place, "lit_again", refused)
-    lit.scene.camera.location.x += 0.2
+    lit.box.location.x += 0.2
     assert bpy.ops.reflection_mesh.update() == {"FINISHED"}
     assert "Cycles is not available." in "".join(capfd.readouterr()) and not lit.shown()
 
 
-@pytest.mark.parametrize("together", [True, False])
-def test_mirrors_of_light_on_objects_may_move(blank, room, together):
-    """Each of those that were lit together, also after the other's result was cleared; other objects may not."""
-    wall = scene_of(blank)
-    other = parts.add("uv_sphere", "Other", radius=0.3, location=(-1.5, -1.0, 0.3))
-    other.data.materials.append(wall.data.materials[0])
-    parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], wall, other)
-    parts.generate(tolerance=8.0)
-    result = bpy.data.objects["Mirror Reflection"]
-    parts.select(*([] if together else [result]))
-    bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
-    parts.select(bpy.data.objects["Other Reflection"])
-    bpy.ops.reflection_mesh.clear()
-    wall.rotation_euler.z += 0.05
-    assert not outdated(room, result)
-    other.location.z += 0.1
-    assert outdated(room, result) != together
+def test_from_elsewhere_light_stays_and_is_outdated(lit, capfd):
+    """Its texels are found again by the points that they show."""
+    place(lit.scene.camera)[0]()
+    lit.generated()
+    assert lit.shown() and lit.outdated() and "no longer fits" not in "".join(capfd.readouterr())
 
 
 def test_what_collections_instance_counts(blank, room):

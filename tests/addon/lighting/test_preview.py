@@ -161,7 +161,7 @@ def wrong_pixels(room, depth: int, lit: bool) -> float:
     parts.generate(depth=depth, preview=True)
     if lit:
         parts.select(*(obj for obj in bpy.context.scene.objects if obj.reflection_mesh.role == "REFLECTION"))
-        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+        bpy.ops.reflection_mesh.light(samples=64)
     return float((np.abs(picture(room) - reference).max(axis=2) > 0.05).mean())
 
 
@@ -192,7 +192,7 @@ def test_each_of_several_mirrors_in_mirrors_takes_its_own_share(blank, room, lit
         mirror.data.materials[0] = principled(f"{mirror.name} metal", colour, Metallic=1.0, Roughness=0.0)
     blank.scene.camera.location, blank.scene.camera.rotation_euler = (-2.4, -5.0, 0.5), (1.5, 0.0, -0.45)
     blank.view_layer.update()
-    assert wrong_pixels(room, 3, lit) < 0.001
+    assert wrong_pixels(room, 3, lit) < (0.0018 if lit else 0.001)
 
 
 @pytest.mark.thorough
@@ -215,7 +215,7 @@ def test_what_later_mirrors_show_beside_what_they_reflect_is_left_to_the_mirror(
     wall = bpy.data.objects["Gold Reflection"]
     parts.select(wall)
     if lit:
-        bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+        bpy.ops.reflection_mesh.light(samples=64)
     bpy.data.objects["Blue Reflection"].hide_render = True
     wrong = np.abs(picture(room) - reference).max(axis=2)
     assert (wrong > 0.05).mean() < 0.001
@@ -244,10 +244,10 @@ def test_the_share_of_later_mirrors_follows_their_materials_when_lit_again(blank
     parts.generate(depth=2)
     results = [obj for obj in blank.scene.objects if obj.reflection_mesh.role == "REFLECTION"]
     parts.select(*results)
-    bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+    bpy.ops.reflection_mesh.light(samples=1)
     gloss = bpy.data.objects["Blue"].data.materials[0].node_tree.nodes[0]
     gloss.inputs["Color"].default_value = (0.9, 0.1, 0.1, 1.0)
-    bpy.ops.reflection_mesh.light(samples=1, kind="OBJECTS")
+    bpy.ops.reflection_mesh.light(samples=64)
     lit = picture(room)
     bpy.ops.reflection_mesh.clear()
     wrong = np.abs(lit - picture(room)).max(axis=2)
@@ -363,7 +363,7 @@ def test_what_the_user_put_in_its_place_stays_and_outlasts_light(blank, link):
     result = parts.generate(preview=True)
     assert result.material_slots[0].material == mine and len(previews()) == 1
     bpy.ops.reflection_mesh.light(samples=1)
-    blank.scene.camera.location.x += 0.1
+    bpy.data.objects["Box"].location.x += 0.1
     for preview in (False, True):
         result = parts.generate(preview=preview)
         assert result.material_slots[0].material == mine

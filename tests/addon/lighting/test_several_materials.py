@@ -43,24 +43,22 @@ def _ball(kind: str) -> bpy.types.Object:
     return ball
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize(("kind", "faces", "measured"), [
-    ("metals", "whole", 46.3), *(pytest.param(kind, "cut", measured, marks=pytest.mark.slow)
-                                 for kind, measured in (("metals", 44.5), ("varnish and glass", 31.4)))])
-def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, faces, measured):
+@pytest.mark.parametrize(("kind", "faces"), [
+    ("metals", "whole"), *(pytest.param(kind, "cut", marks=pytest.mark.slow)
+                           for kind in ("metals", "varnish and glass"))])
+def test_light_on_objects_is_reflected_by_each(blank, room, monkeypatch, kind, faces):
     scene_of(blank)
     _ball(kind)
     if faces == "whole":
         monkeypatch.setattr(room("core.whole_faces.whole"), "LEAST_TRIANGLES", 1000)
         fine = bpy.data.objects["Floor"].modifiers.new("Fine", "SUBSURF")
         fine.subdivision_type, fine.levels, fine.render_levels = "SIMPLE", 5, 5
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    assert psnr(picture(room), reference) > measured - 2.5
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
-@pytest.mark.thorough
 def test_previews_have_the_tint_of_each(blank, room):
     wall = scene_of(blank, "", "Tint")
     card = parts.add("plane", "Card", size=3.0, location=(0.0, -8.0, 1.0), rotation=(-np.pi / 2, 0.0, 0.0))
@@ -115,7 +113,6 @@ def test_no_face_lies_on_two_of_them(blank):
     assert over_both.max() < 1e-4
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["vertices", pytest.param("nodes", marks=pytest.mark.slow)])
 def test_instances_of_a_mirror_reflect_as_what_is_instanced(blank, room, kind):
     """The mirror, which instances it, has no material of its own."""
@@ -132,11 +129,10 @@ def test_instances_of_a_mirror_reflect_as_what_is_instanced(blank, room, kind):
         _instance_by_nodes(carrier, wall)
     carrier.reflection_mesh.role = "MIRROR"
     parts.select(bpy.data.objects["Box"], bpy.data.objects["Floor"], carrier)
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=64, kind="OBJECTS")
-    # measured: 47.8 dB
-    assert psnr(picture(room), reference) > 45.0
+    bpy.ops.reflection_mesh.light(samples=64)
+    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
 
 
 def _instance_by_nodes(carrier: bpy.types.Object, instanced: bpy.types.Object) -> None:

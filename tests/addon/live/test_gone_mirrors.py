@@ -69,7 +69,7 @@ def test_light_leaves_it_out(scene, blank):
     other = parts.generate()
     deleted(scene.ball)
     parts.select()
-    assert bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE") == {"FINISHED"}
+    assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
     assert other.reflection_mesh.light_material is not None and scene.result.reflection_mesh.light_material is None
 
 

@@ -137,7 +137,7 @@ def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock,
     scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
     parts.select(scene.leaf, scene.ball)
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE")
+    bpy.ops.reflection_mesh.light(samples=1)
     bpy.context.view_layer.update()
     scene.camera.location.x += 0.3
     if way == "Live":
@@ -151,7 +151,7 @@ def test_what_loses_its_light_shows_a_preview_where_somebody_looks(scene, clock,
         monkeypatch.setattr(operator, "_pressed", pressed._pressed if way == "button" else operator._pressed)
         bpy.ops.reflection_mesh.update()
     shown, = [slot.material.name for slot in scene.result.material_slots]
-    assert shown == ("Green" if way == "script" else "Green Preview")
+    assert shown.split(".")[0] == ("Green" if way == "script" else "Green Preview")
 
 
 def test_undo_and_redo_bring_the_right_results(scene, clock):

@@ -26,7 +26,7 @@ def expected(frame: int, light: bool = False, **options) -> dict:
     parts.select()
     result = parts.generate(**options)
     if light:
-        bpy.ops.reflection_mesh.light(samples=4, every=True)
+        bpy.ops.reflection_mesh.light(samples=4)
     return generated(result)
 
 

@@ -89,8 +89,7 @@ def test_rough_metal_is_a_mirror_where_it_is_asked_for(scene, room, monkeypatch)
         assert "No mirror" in parts.refusal()
     parts.select(kettle)
     assert parts.generate().reflection_mesh.mirror == kettle
-    assert told[-1] == ("'Kettle' has a roughness of 0.15, and its reflection is sharp: only Light: Picture blurs it "
-                        "as Cycles does.")
+    assert told[-1] == "'Kettle' has a roughness of 0.15, and its reflection is sharp, where Cycles' is blurred."
     bpy.ops.reflection_mesh.clear()
     parts.select(kettle, floor, monkey)
     assert names(room) == (["Kettle"], ["Floor", "Monkey"])

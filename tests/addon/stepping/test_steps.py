@@ -156,7 +156,6 @@ def least(steps) -> float:
     return min(tries)
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("name", [
     "sphere", "water", "bowl", "mirrors", "room", "pond", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_keeps_the_window_waiting(room, name):
@@ -164,7 +163,6 @@ def test_no_step_keeps_the_window_waiting(room, name):
     assert longest_of(name, lambda: started(room)) < 0.5
 
 
-@pytest.mark.thorough
 def test_no_step_of_cutting_along_a_caustic_keeps_the_window_waiting(room):
     """Thousands of pieces of one triangle crowd where a dish shows a place large: as one step it took ten seconds."""
     module, choose, settings = room("addon.operators.mirror_uvs"), room("addon.reading").choose, room("core").Settings
@@ -184,7 +182,6 @@ def test_no_step_of_finding_many_pieces_keeps_the_window_waiting(room):
     assert least(lambda: core.in_steps(lambda: core.picture_pieces(view, mesh, 1e-4))) < 0.5
 
 
-@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["sphere", "pool", pytest.param("suzanne", marks=pytest.mark.slow)])
 def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
     module, settings, choose = room("addon.operators.caustics"), room("core").Settings(), room("addon.reading").choose
@@ -193,7 +190,6 @@ def test_no_step_of_caustics_keeps_the_window_waiting(room, name):
                                                     module.Asked(1, lambda mirror: settings, True))) < 0.5
 
 
-@pytest.mark.thorough
 def test_no_step_of_judging_caustics_by_rays_keeps_the_window_waiting(room):
     """Each throw of rays was one."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "dish.blend"))
@@ -204,7 +200,6 @@ def test_no_step_of_judging_caustics_by_rays_keeps_the_window_waiting(room):
     assert least(lambda: light.against_rays(depsgraph, result, light.Lit.of(result), around, 400_000)) < 0.5
 
 
-@pytest.mark.thorough
 def test_no_step_of_packing_a_picture_keeps_the_window_waiting(room):
     report, values = room("addon.report"), np.random.default_rng(3).random((4320, 3840)) + 1e-3
     assert least(lambda: room("core").in_steps(lambda: report.heat_map(values, 1e-3, 1.0))) < 0.5
@@ -239,19 +234,6 @@ def test_no_step_of_packing_a_sheet_keeps_the_window_waiting(room, sheet, blank,
     assert least(lambda: place.printing(blank, blank.scene.camera, str(tmp_path / "sheet.png"), "Rich", 300.0)) < 0.5
 
 
-@pytest.mark.thorough
-def test_no_step_of_light_but_its_renders_keeps_the_window_waiting(room):
-    """Bright lamps in a large picture: bringing their borders nearer took two seconds at once."""
-    texels = room("addon.lighting.picture.texels")
-    light = np.full((1080, 1920, 3), 0.2, np.float32)
-    light[100:600:50, 100:600:50] = 40.0
-    kernel = texels.pixel_kernel("BLACKMAN_HARRIS", 1.5)
-    covered = np.ones((1080, 1920), np.float32)
-    covered[:, 900:] = 0.5
-    assert least(lambda: texels.texels_of(light, covered, kernel, 1.0)) < 0.5
-
-
-@pytest.mark.thorough
 def test_no_step_of_measuring_a_large_picture_keeps_the_window_waiting(room):
     metrics, size = room("addon.metrics"), (1440, 2560)
     rows, columns = np.mgrid[:size[0], :size[1]].astype(np.float64)

@@ -41,7 +41,7 @@ def test_opaque_materials(blank, room, kind):
 @pytest.fixture
 def dense_scene(blank):
     """A ball that mirrors two dense plates, one behind the other."""
-    ball = parts.add("uv_sphere", "Ball", segments=48, ring_count=32, radius=1.0, location=(0.0, 0.0, 1.0))
+    ball = parts.add("uv_sphere", "Ball", segments=24, ring_count=16, radius=1.0, location=(0.0, 0.0, 1.0))
     ball.data.polygons.foreach_set("use_smooth", np.ones(len(ball.data.polygons), dtype=bool))
     ball.data.materials.append(parts.material("Chrome", "GLOSSY"))
     plates = [parts.add("grid", name, x_subdivisions=80, y_subdivisions=80, size=size, location=(0.0, -3.0, height))

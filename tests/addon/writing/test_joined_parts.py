@@ -47,7 +47,7 @@ def test_it_is_an_object_again(scene, capfd, how):
         scene.leaf.data.materials.append(parts.material("Green", "DIFFUSE"))
         parts.select(result)
         parts.generate()
-        assert bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE") == {"FINISHED"}
+        assert bpy.ops.reflection_mesh.light(samples=1) == {"FINISHED"}
     faces = result.reflection_mesh.faces
     where = join_a_cube(result)
     capfd.readouterr()

@@ -136,7 +136,7 @@ def test_line_art_is_drawn_again_when_a_result_comes_changes_or_goes(still_life)
     objects[0].location.z += 0.3
     bpy.ops.reflection_mesh.update()
     assert drawn_at_once() >= before + 20
-    bpy.ops.reflection_mesh.light(samples=1, kind="PICTURE", every=True)
+    bpy.ops.reflection_mesh.light(samples=1)
     assert drawn_at_once() >= before + 20
     bpy.ops.reflection_mesh.clear()
     assert abs(drawn_at_once() - before) < 10

@@ -73,7 +73,7 @@ SETTINGS = [
     *cases("placement", lambda given: Settings(placement=given), none=None, lower="layered", number=0,
            list=["LAYERED"], array=np.array(["LAYERED", "SURFACE"])),
     *cases("method", lambda given: Settings(method=given), none=None, other="X", array=np.array(["GENERAL"] * 2)),
-    *cases("depth", lambda given: Settings(depth=given), **NO_NUMBERS, zero=0, negative=-3, half=1.5, float=2.0,
+    *cases("depth", lambda given: Settings(depth=given), **NO_NUMBERS, negative=-3, half=1.5, float=2.0,
            nan=NAN, inf=INF, endless=10 ** 400),
     *cases("depth", lambda given: Settings(method="POINTS", depth=given), of_points=2),
     *cases("maximum_faces", lambda given: Settings(maximum_faces=given), **NO_NUMBERS, zero=0, float=1e6, nan=NAN,

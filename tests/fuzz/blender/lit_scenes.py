@@ -19,9 +19,7 @@ from tests.fuzz.blender.scenes import Scene, select
 
 SIZE = 80      # pixels
 SAMPLES = 256  # of its pictures
-# what light on the objects is told not to show: blur, and veils before the sky, through which the mirror is seen
-UNKNOWN = {"PICTURE": (), "OBJECTS": ("veiled", "blurred")}
-LIGHT = {"PICTURE": SAMPLES, "OBJECTS": 64}  # samples of each kind; whole objects have many texels
+UNKNOWN = ("blurred",)  # a reflection is sharp
 ROOM = 1.2     # the least distance of an object's middle from the way that the camera looks along
 
 
@@ -29,9 +27,9 @@ def lit_scene(seed: int) -> Scene:
     """Build the scene of a seed, the same every time, in a new empty file."""
     rng = np.random.default_rng((seed, 13))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    kind = chosen(rng, list(LIGHT))
+    chosen(rng, ["", ""])  # what is drawn after it stays what it is
     shape, mirror = added_object(rng, "Mirror", MIRRORS)
-    of, material = mirror_material(rng, UNKNOWN[kind])
+    of, material = mirror_material(rng, UNKNOWN)
     mirror.data.materials.append(material)
     mirror.reflection_mesh.role = "MIRROR"
     names = [str(seed), f"{shape} of {of}"]
@@ -42,24 +40,23 @@ def lit_scene(seed: int) -> Scene:
         mirrors.append(_beside(rng))
         names.append("beside a mirror")
     eye = Vector((rng.uniform(-2.0, 2.0), -6.5, rng.uniform(0.3, 2.5)))
-    names += [_placed(rng, number, eye, UNKNOWN[kind]) for number in range(chosen(rng, [2, 3, 5]))]
+    names += [_placed(rng, number, eye, UNKNOWN) for number in range(chosen(rng, [2, 3, 5]))]
     if rng.random() < 0.7:
-        names.append("on a floor of " + added_floor(rng, UNKNOWN[kind]))
+        names.append("on a floor of " + added_floor(rng, UNKNOWN))
     names += [_lamp(rng, number) for number in range(chosen(rng, [1, 1, 2]))] + [_world(rng), _camera(rng, eye)]
     _rendered(rng)
-    options = {"kind": kind, "samples": LIGHT[kind]}
-    # on the surface images over one another share a plane, and only the picture looks alike on all of them
-    placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"]) if kind == "PICTURE" else "LAYERED"
+    options = {"samples": SAMPLES}
+    placement = chosen(rng, ["LAYERED", "LAYERED", "SURFACE"])
     rng = np.random.default_rng((seed, 14))  # of what came later: the scenes of all seeds else stay what they are
     if rng.random() < 0.2:
-        names.append("in part of " + _second_material(rng, mirror, UNKNOWN[kind]))
+        names.append("in part of " + _second_material(rng, mirror, UNKNOWN))
     if len(mirrors) > 1 and rng.random() < 0.7:
-        of, mirrors[1].data.materials[0] = mirror_material(rng, UNKNOWN[kind])
+        of, mirrors[1].data.materials[0] = mirror_material(rng, UNKNOWN)
         names.append(f"the other one of {of}")
     names += varied(np.random.default_rng((seed, 15)), mirror, MODIFIERS)
     bpy.context.view_layer.update()
     select(list(bpy.context.scene.objects), mirror)
-    return Scene(", ".join([*names, placement, kind]),
+    return Scene(", ".join([*names, placement]),
                  {"light": options, "generate": {"placement": placement, "depth": len(mirrors)}}, mirrors)
 
 

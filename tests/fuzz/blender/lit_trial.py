@@ -18,7 +18,7 @@ WANTED = 38.0    # dB over the mirror's pixels
 NEARLY = 1.5     # dB that Cycles may be nearer to itself, where its noise is more than that
 WORST = 0.005    # of the pixels, which are left out
 FEW = 60         # pixels: a mirror of which less is seen says nothing
-TOLD = "Light: Picture"  # where a result is told to lack what this has
+TOLD = "which a reflection does not follow"  # where a result is told to lack something
 
 
 @dataclass(frozen=True)

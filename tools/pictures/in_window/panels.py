@@ -14,7 +14,7 @@ GREY = 226
 # the same: a button, and the headers of panels: folded, and unfolded while Settings are folded
 LIGHT, SETTINGS, TOOLS, FIGURES = 149, 412, 645, 671
 UNFOLDED_TOOLS, UNFOLDED_FIGURES, UNFOLDED_END = 438, 660, 800
-LIMITS = 620
+LIMITS = 596
 # below the upper end of the Properties editor: a folded panel; its header and its list's grip once it alone is unfolded
 ATTRIBUTES, ATTRIBUTES_HEADER, ATTRIBUTES_GRIP = 480, 216, 366
 WIDER, LONGER = 160, 240    # what is added to the editor's width and to the list
@@ -91,7 +91,7 @@ def choices():
         yield 0.5
     side = screen.region("UI")
     joined("choices", [part("roles", 6, 345, 200, 130), part("presets", 6, 370, 236, 168),
-                       part("unfolded", side.x, 480, side.width, 328)])
+                       part("unfolded", side.x, 480, side.width, 318)])
 
 
 def attributes():

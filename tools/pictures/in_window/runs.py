@@ -47,6 +47,7 @@ def ways_in():
 
 def after_run():
     screen = yield from opened("room")
+    bpy.context.scene.render.resolution_percentage = 20
     alone(MIRROR)
     screen.point(**screen.centre)
     for name, words, made in (("generated", "generate reflection", bpy.data.objects),

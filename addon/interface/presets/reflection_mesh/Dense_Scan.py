@@ -11,5 +11,4 @@ settings.method = "POINTS"
 settings.depth = 1
 settings.hidden_faces = False
 settings.light_samples = 64
-settings.light_kind = "PICTURE"
 settings.attributes = "ALL"

@@ -1,0 +1,324 @@
+"""Unwrap reflections by where the camera sees them: a place in one picture for each face, and the light path of each
+texel.
+
+A texel is as large as a share of a pixel. Each source has a block of texels of its own, so that nothing shines across
+the outline of another one. Faces behind one another lie in different blocks too, if each is to keep its light where
+what hides it is taken away.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import bpy
+import numpy as np
+
+from ...core import View, breathe, draw, pages_of
+from ...core.result import place
+from ..reading import corner_vertices, numbers, vectors
+from ..reading.materials import is_displaced
+from ..writing import ARRIVAL, NORMAL
+from .further_mirrors import FurtherMirrors
+from .light_paths import LightPaths
+from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
+
+MARGIN = 5          # texels around each block
+NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
+ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
+FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
+POINT_LEAD = 1e-3   # the same for points, which lie at vertices
+FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
+GROUPS = 1 << 30     # more than a reflection has groups of faces
+MOST_BOUNCES = 1 << 8
+SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
+
+
+@dataclass(frozen=True)
+class Faces:
+    """The faces of a reflection in world space: corners are of triangles (m, 3).
+
+    Attributes
+    ----------
+    positions : (n, 3) float64, where the mesh lies
+    images : (n, 3) float64, which hide each other as the faces do, before and behind the same pixels
+    corners : (m, 3) int64, vertices of each face
+    targets, origins : (m, 3, 3) float64, ends of the light path of each corner
+    sky : (m,) bool, faces that show the world
+    displaced : (m,) bool, faces of which renders move the source: it is looked for from the mirror on
+    normals : (m, 3, 3) float64, of the mirror at the corners; zero after several mirrors
+    group : (m,) int64, the same for faces of one mirror that show one source by as many mirrors
+    turn : (m,) float32, as of `LightPaths`
+    """
+
+    positions: np.ndarray
+    images: np.ndarray
+    corners: np.ndarray
+    targets: np.ndarray
+    origins: np.ndarray
+    sky: np.ndarray
+    displaced: np.ndarray
+    normals: np.ndarray
+    group: np.ndarray
+    turn: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: list[Faces]) -> Faces:
+        """Return the faces of all parts as one."""
+        parts = [cls.none(), *parts]
+        starts = np.cumsum([0, *(len(one.positions) for one in parts)])
+        corners = np.concatenate([one.corners + start for one, start in zip(parts, starts)])
+        others = {name: np.concatenate([getattr(one, name) for one in parts])
+                  for name in ("positions", "images", "targets", "origins", "sky", "displaced", "normals", "group",
+                               "turn")}
+        return cls(corners=corners, **others)
+
+    @classmethod
+    def none(cls) -> Faces:
+        none, ends = np.zeros((0, 3)), np.zeros((0, 3, 3))
+        return cls(none, none, none.astype(np.int64), ends, ends, *np.zeros((2, 0), dtype=bool), ends,
+                   np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.float32))
+
+
+class Placed(NamedTuple):
+    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, whether faces that others hide need
+    light of their own, the number of its mirror (copies of a reflection have the same place in the picture), and the
+    turn that each of its sources allows, as of `LightPaths`."""
+
+    mesh: bpy.types.Mesh
+    matrix: np.ndarray
+    layered: bool
+    mirror: int
+    turns: tuple[float, ...]
+
+    @property
+    def positions(self) -> np.ndarray:
+        """(n, 3) float64, in world space."""
+        return vectors(self.mesh, "position") @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    @property
+    def has_faces(self) -> bool:
+        return len(self.mesh.polygons) > 0
+
+
+@dataclass(frozen=True)
+class Unwrapped:
+    """Reflections unwrapped into one picture.
+
+    Attributes
+    ----------
+    size : (width, height) in texels
+    spots : list of (m, 3, 2) float64, from 0 to 1 in the camera's view, for each reflection with faces; (n, 2) for one
+        of points
+    pages : list of Page, of faces
+    points : list of PointBlock
+    """
+
+    size: tuple[int, int]
+    spots: list
+    pages: list
+    points: list
+
+    def paths(self, further: FurtherMirrors | None = None, seen: bool = False) -> LightPaths:
+        """Return the light path of each texel; those to the world by `further` mirrors too; the path from the eye to
+        the reflection itself if `seen`."""
+        paths = LightPaths.empty(self.size[1], self.size[0])
+        for part in self.pages + self.points:
+            part.draw(paths, further, seen)
+        return paths
+
+
+def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
+    """Unwrap reflections as `view` sees them, with `dense` texels along each side of a pixel.
+
+    Parameters
+    ----------
+    placed : list of Placed
+        Whose meshes have the attributes `reflected_position` and `mirror_position`.
+    """
+    fine = replace(view, resolution=tuple(side * dense for side in view.resolution))
+    faces = [faces_of(one, view) for one in placed if one.has_faces]
+    joined = Faces.joined(faces)
+    pixels = fine.pixels(joined.positions)[joined.corners]
+    layered = any(one.layered for one in placed)
+    page = (pages_of(fine, joined.images, joined.corners) if layered
+            else np.zeros(len(joined.corners), dtype=np.int64))
+    pages = [Page(fine, joined, own, pixels[own], joined.group[own])
+             for own in (np.flatnonzero(page == number) for number in np.unique(page))]
+    points = [PointBlock(one, view) for one in placed if not one.has_faces]
+    size = _pack([block for one in pages for block in one.blocks] + points)
+    spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
+    for one in pages:
+        spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
+    # corners beside the camera's view lie beside the picture: the part of their face that is seen would else be bent
+    spots = np.clip(np.nan_to_num(spots), -FARTHEST_SPOT, FARTHEST_SPOT)
+    with_faces = iter(np.split(spots, np.cumsum([len(one.corners) for one in faces])[:-1]))
+    without = iter(of_points)
+    return Unwrapped(size, [next(with_faces if one.has_faces else without) for one in placed], pages, points)
+
+
+def faces_of(placed: Placed, view: View) -> Faces:
+    """Read the faces of a reflection that `view` sees, and the light path of each corner."""
+    mesh = placed.mesh
+    corners = corner_vertices(mesh).astype(np.int64)
+    target, origin = vectors(mesh, "reflected_position")[corners], vectors(mesh, "mirror_position")[corners]
+    source, normals = numbers(mesh, "source_object").astype(np.int64), vectors(mesh, NORMAL)[corners]
+    group = placed.mirror * GROUPS + (source - WORLD) * MOST_BOUNCES
+    if ARRIVAL in mesh.attributes:
+        # light that met several mirrors arrives from the last one
+        later = numbers(mesh, "bounces") > 1
+        origin[later] = target[later] - vectors(mesh, ARRIVAL)[corners[later]]
+        normals[later] = 0.0
+        group += numbers(mesh, "bounces")
+    positions = images = placed.positions
+    if lies_on_mirror(mesh, positions):
+        # all in one plane: what they show tells which is before another
+        images = place(view, vectors(mesh, "mirror_position").T, numbers(mesh, "path_length"), "VIRTUAL").T
+    sky, displaced = source == WORLD, np.array([is_displaced(one) for one in mesh.materials] or [False])
+    slot = np.zeros(len(corners), dtype=np.int32)
+    mesh.polygons.foreach_get("material_index", slot)
+    displaced = displaced[np.minimum(slot, len(displaced) - 1)] & ~sky
+    # the last one is that of the world; where renders move the source its points are not known
+    turn = np.array((*placed.turns, 0.0), dtype=np.float32)[source] * ~displaced
+    return Faces(positions, images, corners, target, origin, sky, displaced, normals, group, turn)
+
+
+@dataclass
+class Block:
+    """A rectangle of texels: width and height, `size` (2,); lowest column and row in the picture, `corner` (2,)."""
+
+    size: np.ndarray
+    corner: np.ndarray
+
+
+class Page:
+    """Faces of which none hides another one, in a block for each of their groups.
+
+    Attributes
+    ----------
+    fine : View, whose pixels are texels
+    faces : Faces, and which of them are on the page: `own` (k,)
+    pixels : (k, 3, 2) float64, where the view sees their corners
+    block : (k,) int64, which of the `blocks` each is in
+    """
+
+    def __init__(self, fine: View, faces: Faces, own: np.ndarray, pixels: np.ndarray, group: np.ndarray) -> None:
+        self.fine, self.faces, self.own, self.pixels = fine, faces, own, pixels
+        groups, self.block = np.unique(group, return_inverse=True)
+        spots = np.clip(np.nan_to_num(pixels), 0, fine.resolution)
+        low, high = np.full((len(groups), 2), np.inf), np.zeros((len(groups), 2))
+        np.minimum.at(low, self.block, spots.min(axis=1))
+        np.maximum.at(high, self.block, spots.max(axis=1))
+        self.low = np.floor(low).astype(np.int64) - MARGIN
+        sizes = np.ceil(high).astype(np.int64) + MARGIN - self.low
+        self.blocks = [Block(size, np.zeros(2, dtype=np.int64)) for size in sizes]
+
+    @property
+    def shifts(self) -> np.ndarray:
+        """(b, 2) int64, from the view's columns and rows to those of the picture, for each block."""
+        return np.array([block.corner for block in self.blocks]) - self.low
+
+    def draw(self, paths: LightPaths, further: FurtherMirrors | None, seen: bool) -> None:
+        """Write the light path of each texel whose centre a face covers; the path from the eye if `seen`."""
+        faces, width = self.faces, self.fine.resolution[0]
+        drawn = draw(self.fine, faces.images, faces.corners[self.own])
+        at = np.flatnonzero(drawn.triangle >= 0)
+        row, column = np.divmod(at, width)
+        own, weights = drawn.triangle[at], drawn.weights[:, at]
+        face = self.own[own]
+        breathe()
+        targets = faces.positions[faces.corners[face]] if seen else faces.targets[face]
+        target = np.einsum("kn,nki->ni", weights, targets)
+        if seen:
+            origin = target - self.fine.directions(target)
+        else:
+            origin = np.einsum("kn,nki->ni", weights, faces.origins[face])
+            normal = np.einsum("kn,nki->ni", weights, faces.normals[face])
+            sky = np.flatnonzero(faces.sky[face])
+            # the true map: the normal is that between the corners, and of unit length
+            target[sky] = world_targets(self.fine, origin[sky], normal[sky])
+        breathe()
+        across, up = _changes(self.pixels[own], targets)
+        if not seen:
+            across, up = _before_mirror(across, up, target - origin, normal)
+        breathe()
+        left = np.ones_like(target)
+        if further is not None and not seen:
+            later, places, ahead, tint = further.follow(self.fine, origin[sky])
+            later = sky[later]
+            origin[later], target[later], left[later] = places, places + far_away(self.fine) * ahead, tint
+            across[later] = up[later] = 0.0
+        texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
+        lead = texel / np.maximum(np.linalg.norm(target - origin, axis=1), 1e-30)
+        shift = self.shifts[self.block[own]]
+        spot = row + shift[:, 1], column + shift[:, 0]
+        paths.used[spot], paths.left[spot], paths.turn[spot] = True, left, faces.turn[face]
+        paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
+        lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
+        paths.lead[spot] = SEEN_LEAD if seen else lead
+
+
+def _changes(pixels: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how much the targets (n, 3, 3) at corners seen at `pixels` (n, 3, 2) change from pixel to pixel, (n, 3)
+    along a row and along a column."""
+    (a, b), (c, d) = np.moveaxis(pixels[:, 1:] - pixels[:, :1], 0, 2)
+    first, second = targets[:, 1] - targets[:, 0], targets[:, 2] - targets[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inverse = 1.0 / (a * d - b * c)
+        across = (first * d[:, None] - second * b[:, None]) * inverse[:, None]
+        up = (second * a[:, None] - first * c[:, None]) * inverse[:, None]
+    # a face seen edge on has none
+    longest = np.abs(targets - targets.mean(axis=1, keepdims=True)).max(axis=(1, 2))[:, None]
+    return tuple(np.clip(np.nan_to_num(change), -longest, longest) for change in (across, up))
+
+
+def _before_mirror(across: np.ndarray, up: np.ndarray, path: np.ndarray, normal: np.ndarray
+                   ) -> tuple[np.ndarray, np.ndarray]:
+    """Return changes (n, 3) so short that the target, with all of its texel, lies on the mirror's side on which the
+    light path (n, 3) does: beside the line where a source meets its mirror the change would lead behind it."""
+    room = ROOM * np.abs(np.einsum("ni,ni->n", path, normal))
+    reach = sum(np.abs(np.einsum("ni,ni->n", change, normal)) for change in (across, up))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.where(reach > room, room / reach, 1.0)[:, None]
+    return across * share, up * share
+
+
+class PointBlock(Block):
+    """A rectangle of texels, one for each point of a reflection of points."""
+
+    def __init__(self, placed: Placed, view: View) -> None:
+        self.placed, self.view, self.count = placed, view, len(placed.mesh.vertices)
+        width = max(int(np.ceil(np.sqrt(self.count))), 1)
+        super().__init__(np.array((width, -(-self.count // width))), np.zeros(2, dtype=np.int64))
+
+    def spots(self, size: np.ndarray) -> np.ndarray:
+        """Return the place (n, 2) of each point in a picture of `size` texels, from 0 to 1."""
+        return (self._texels() + 0.5) / size
+
+    def draw(self, paths: LightPaths, _: FurtherMirrors | None, seen: bool) -> None:
+        """Write the light path of each point; the path from the eye if `seen`."""
+        column, row = self._texels().T
+        if seen:
+            target = self.placed.positions
+            origin = target - self.view.directions(target)
+        else:
+            target, origin = (vectors(self.placed.mesh, name) for name in ("reflected_position", "mirror_position"))
+        paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
+        paths.lead[row, column] = SEEN_LEAD if seen else POINT_LEAD
+
+    def _texels(self) -> np.ndarray:
+        row, column = np.divmod(np.arange(self.count), self.size[0])
+        return np.stack((column, row), axis=1) + self.corner
+
+
+def _pack(blocks: list[Block]) -> np.ndarray:
+    """Stack blocks in shelves, the highest first; return the size of the whole."""
+    width = max((int(block.size[0]) for block in blocks), default=1)
+    shelf = used = height = 0
+    for block in sorted(blocks, key=lambda block: -block.size[1]):
+        if used + block.size[0] > width:
+            shelf, used = shelf + height, 0
+        if used == 0:
+            height = int(block.size[1])
+        block.corner = np.array((used, shelf))
+        used += int(block.size[0])
+    return np.array((width, max(shelf + height, 1)))
