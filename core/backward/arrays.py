@@ -4,8 +4,23 @@ from __future__ import annotations
 import numpy as np
 
 from ..culling import SceneAndMirrors
-from ..geometry import SceneFrames, area_normals, columns, distinct, dot, norm, rows
+from ..geometry import (
+    SceneFrames,
+    area_normals,
+    columns,
+    connected,
+    distinct,
+    dot,
+    edge_lengths,
+    norm,
+    others,
+    rows,
+)
 from .backward_part import BackwardPart
+from .paths import Paths
+
+MOST_IN_CELL = 4    # largest number of vertices at one place of the picture: one for each corner of a cell
+CLOSE = 0.1         # pixels: largest distance between the points that they show; with 0.75, p99 of a torus rises by a half
 
 
 def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
@@ -14,10 +29,12 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     used, corner = distinct(cells.faces.ravel())
     paths, spots, triangles = paths.select(used), spots[used], corner.reshape(-1, 3)
     source = part.source(cells.key)
+    close = CLOSE * _motion(paths.point.T[triangles], spots, triangles)
+    kept, triangles = _welded(paths, spots, triangles, source, close, met)
+    paths, spots, close = paths.select(kept), spots[kept], close[kept]
     found, column = distinct(source)
     frames = SceneFrames.of(met, found)
     weights = frames.weights_within(np.repeat(column, 3), paths.point[:, triangles.ravel()]).T.reshape(-1, 3, 3)
-    # all faces at a vertex have the same source triangle, so a vertex needs one reflected point only
     corners = rows(met.positions[frames.vertices[:, column]])
     normals = area_normals(corners)
     height = sum(dot(normals, columns(paths.origin, node) - corners[:, 0]) for node in triangles.T)
@@ -27,6 +44,12 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     parity = np.zeros(len(spots))
     sign = np.sign(area) * np.where(turned, -1.0, 1.0) * (-1.0)**paths.bounces[triangles[:, 0]]
     np.add.at(parity, triangles.ravel(), np.repeat(sign, 3))
+    # a face's side along an edge of its source is exactly on that edge
+    greatest = weights.max(axis=2)
+    for corner, (one, other) in enumerate(map(others, range(3))):
+        height, own = norm(normals) / norm(corners[:, one] - corners[:, other]), weights[..., corner]
+        own[(own * height[:, None] <= close[triangles]) & (own < greatest)] = 0.0
+    weights /= weights.sum(axis=2, keepdims=True)
     face = paths.face[triangles]
     return {
         "triangles": np.take_along_axis(triangles, order, axis=1), "reflected_position": paths.point.T,
@@ -36,3 +59,55 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
         "mirror_face": np.where((face == face[:, :1]).all(axis=1), face[:, 0], -1),
         "map_face": face[:, 0], "bounces": paths.bounces[triangles[:, 0]].astype(np.int8),
         "later_mirrors": paths.later.T[triangles[:, 0]]}
+
+
+def _motion(points: np.ndarray, spots: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return how far the reflected point moves per pixel, (n,) in scene units: the largest value of the faces around.
+
+    `points` (m, 3, 3) are the reflected points at the corners of `triangles` (m, 3), `spots` (n, 2) the vertices' places
+    in pixels.
+    """
+    moved, across = edge_lengths(points).max(axis=1), edge_lengths(spots[triangles]).max(axis=1)
+    motion = np.zeros(len(spots))
+    np.maximum.at(motion, triangles, (moved / np.maximum(across, np.finfo(float).tiny))[:, None])
+    return motion
+
+
+def _welded(paths: Paths, spots: np.ndarray, triangles: np.ndarray, source: np.ndarray, close: np.ndarray,
+            met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray]:
+    """Merge vertices at one place of the picture that show one point of an edge between two source triangles.
+
+    Line Art and Freestyle then find the edge inside a surface, as they find it in the scene.
+
+    Parameters
+    ----------
+    paths, spots : the vertices (n), and their places (n, 2) in pixels
+    triangles : (m, 3) int64, vertices of the faces; all faces at a vertex show the same source triangle
+    source : (m,) int64, source triangle of each face
+    close : (n,) float64, largest distance between the points that merged vertices show, in scene units
+
+    Returns
+    -------
+    kept : (k,) int64
+        The vertices that are left.
+    triangles : (m, 3) int64
+        Indices into these.
+    """
+    shown = np.zeros(len(spots), dtype=np.int64)
+    shown[triangles] = source[:, None]
+    order = np.lexsort(spots.T)
+    pairs = np.concatenate([np.stack((order[:-step], order[step:])) for step in range(1, MOST_IN_CELL)], axis=1)
+    pairs = pairs[:, (spots[pairs[0]] == spots[pairs[1]]).all(axis=1)]
+    pairs = pairs[:, paths.bounces[pairs[0]] == paths.bounces[pairs[1]]]
+    pairs = pairs[:, norm(paths.point[:, pairs[0]] - paths.point[:, pairs[1]]) <= close[pairs].min(axis=0)]
+    mesh = met.tree.mesh
+    one, other = (mesh.place_of[mesh.triangles[shown[part]]] for part in pairs)
+    pairs = pairs[:, (one[:, :, None] == other[:, None, :]).sum(axis=(1, 2)) >= 2]
+    stands = np.arange(len(spots))
+    if pairs.size:
+        group = np.repeat(connected(pairs.T), 2)
+        lowest = np.full(int(group.max()) + 1, len(stands))
+        np.minimum.at(lowest, group, pairs.T.ravel())
+        stands[pairs.T.ravel()] = lowest[group]
+    kept, corner = distinct(stands[triangles].ravel())
+    return kept, corner.reshape(-1, 3)

@@ -50,7 +50,8 @@ def test_line_art_draws_the_visible_edges_of_a_cube_and_nothing_else(cube, kind,
 @pytest.mark.thorough
 @pytest.mark.parametrize("kind, placement", [("wall", "LAYERED"), ("wall", "VIRTUAL"), ("ball", "LAYERED")])
 def test_where_objects_pass_through_each_other_line_art_draws_that_if_it_may(cube, kind, placement):
-    """All of it and nothing else, once the user lets the result have intersections."""
+    """All of it and nothing else, once the user lets the result have intersections; faces by rays end there, so that it
+    is among their contours."""
     place = np.array(BESIDE) + (-0.45, -0.1, 0.35)
     other = parts.add("cube", "Other", size=0.8, location=place, rotation=(0.1, 0.5, 0.3))
     other.data.materials.append(cube.active_material)
@@ -61,11 +62,12 @@ def test_where_objects_pass_through_each_other_line_art_draws_that_if_it_may(cub
         mirror.lineart.usage = "EXCLUDE"
     expected = meeting(cube, other, kind)
     assert len(expected) > 500 and not line_art(result, "intersection")
+    if kind == "ball":
+        assert (off_lines(expected, line_art(result, "contour")) < 1.0).all()
+        return
     result.lineart.usage = "INHERIT"
     strokes = line_art(result, "intersection")
-    # the Line Art of 4.2 leaves out short ones
-    gaps = off_lines(expected, strokes) > 1.0
-    assert not gaps.any() or (bpy.app.version < (4, 3, 0) and kind == "ball" and gaps.mean() < 0.3)
+    assert (off_lines(expected, strokes) < 1.0).all()
     assert max(np.linalg.norm(expected - point, axis=1).min() for point in dense(strokes)) < 1.0
 
 
@@ -202,13 +204,14 @@ def test_marks_lie_on_the_marked_edge(blank, room, chosen):
 
 @pytest.mark.thorough
 def test_line_art_takes_creases_from_sharp_edges(cube):
-    """The three edges round the corner of a cube that is nearest; where its surface turns over there are contours."""
+    """Edges of a cube on both sides of which its surface is seen; at the others there are contours."""
     parts.select(cube, add_mirror("ball"))
     result = parts.generate()
     strokes, contours = line_art(result, "crease"), line_art(result, "contour")
     expected, _ = cube_edges(cube, "ball")
     assert len(strokes) and off_lines(dense(strokes), expected).max() < 1.5
-    assert sum(off_lines(edge, strokes).max() < 1.5 for edge in expected) == 3
+    inner = [edge for edge in expected if off_lines(edge, contours).max() > 1.5]
+    assert inner and all(off_lines(edge, strokes).max() < 1.5 for edge in inner)
     assert off_lines(np.concatenate(expected), strokes + contours).max() < 1.5
 
 
@@ -384,8 +387,9 @@ def test_light_leaves_the_lines(cube):
     after = line_art(result)
     assert sum(map(len, before)) > 9
     assert apart(before, after) < 1e-3
-    # faces that show the world add the outline of the mirror
-    assert apart(after, [*before, *outline]) < 1.0
+    # faces that show the world add the outline of the mirror, and end a little outside the picture
+    inside = [stroke[(stroke[:, 1] < 384.0)] for stroke in after]
+    assert apart(inside, [*before, *outline]) < 1.0
     assert not result.data.validate()
 
 
