@@ -56,8 +56,11 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
     maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     for part in parts:
         part["later_mirrors"] = _later_mirrors(maps, part["bounces"], part["map_face"], met)
+    lift: np.ndarray | float = 0.0
     if backward is not None:
-        parts.append({**backward, "triangles": backward["triangles"] + start})
+        lift = np.concatenate((np.zeros(start), backward["lift"]))
+        parts.append({name: values for name, values in backward.items() if name != "lift"})
+        parts[-1]["triangles"] = backward["triangles"] + start
     _pad(parts, "mirror_normals", 0.0)
     _pad(parts, "later_mirrors", -1)
     breathe()
@@ -68,7 +71,7 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
     arrays["positions"] = place(view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
-                                met.slide).T
+                                met.slide, lift).T
     return ReflectionMesh(**arrays)
 
 

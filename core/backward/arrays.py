@@ -19,12 +19,17 @@ from ..geometry import (
 from .backward_part import BackwardPart
 from .paths import Paths
 
+SAG_OF_FACE = 4.0 / 3.0     # sag of a face whose three edges sag alike, as a multiple of theirs
+STEEPEST = 0.1      # largest sag of an edge, in viewing distances: at a silhouette planes are seen edge on
 MOST_IN_CELL = 4    # largest number of vertices at one place of the picture: one for each corner of a cell
 CLOSE = 0.1         # pixels: largest distance between the points that they show; with 0.75, p99 of a torus rises by a half
 
 
 def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
-    """Return the arrays of `ReflectionMesh` except its positions; triangle indices are in the canonical order."""
+    """Return the arrays of `ReflectionMesh` except its positions; triangle indices are in the canonical order.
+
+    `lift` (n,) is how far vertices must move towards the eye so that no face lies behind the mirror, as `place` takes it.
+    """
     paths, spots, cells = part.faces()
     used, corner = distinct(cells.faces.ravel())
     paths, spots, triangles = paths.select(used), spots[used], corner.reshape(-1, 3)
@@ -53,12 +58,35 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     face = paths.face[triangles]
     return {
         "triangles": np.take_along_axis(triangles, order, axis=1), "reflected_position": paths.point.T,
-        "mirror_position": paths.place.T, "path_length": paths.length + norm(paths.point - paths.origin),
+        "mirror_position": paths.place.T, "path_length": paths.total,
         "image_parity": np.sign(parity).astype(np.int8), "mirror_normals": np.moveaxis(paths.normal, 2, 0),
         "source_face": met.of_scene(source), "source_weights": np.take_along_axis(weights, order[:, :, None], axis=1),
         "mirror_face": np.where((face == face[:, :1]).all(axis=1), face[:, 0], -1),
         "map_face": face[:, 0], "bounces": paths.bounces[triangles[:, 0]].astype(np.int8),
-        "later_mirrors": paths.later.T[triangles[:, 0]]}
+        "later_mirrors": paths.later.T[triangles[:, 0]], "lift": _lift(part, paths, triangles)}
+
+
+def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray:
+    """Return how far the mirror lies before the faces around each vertex (n,), in units of `View.directions`."""
+    surface, ahead = part.tracer.surface, part.view.directions(paths.place.T).T
+    normal, place = surface.face_normal[:, paths.face], surface.a[:, paths.face]
+
+    def before(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Return how far the plane of the mirror at `one` is before `other`, on the view ray of `other`."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = dot(normal[:, one], paths.place[:, other] - place[:, one]) / dot(normal[:, one], ahead[:, other])
+        return np.clip(np.nan_to_num(found), -STEEPEST, STEEPEST)
+    sag = np.zeros(len(triangles))
+    for start, end in zip(triangles.T, np.roll(triangles.T, -1, axis=0)):
+        # along an edge, a convex mirror is no nearer than the farther one of the planes at both ends
+        one, other = (before(start, start), before(start, end)), (before(end, start), before(end, end))
+        rise, fall = one[1] - one[0], other[0] - other[1]
+        share = np.clip((other[0] - one[0]) / np.maximum(rise + fall, np.finfo(float).tiny), 0.0, 1.0)
+        for way in (0.0, share, 1.0):
+            np.maximum(sag, np.minimum(one[0] + way * rise, other[0] - way * fall), out=sag)
+    lift = np.zeros(len(paths.face))
+    np.maximum.at(lift, triangles, SAG_OF_FACE * sag[:, None])
+    return lift
 
 
 def _motion(points: np.ndarray, spots: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -17,7 +17,7 @@ from .cell_faces import CellFaces, faces_of_cells
 from .cells import Labels, cells_of
 from .decision import MOST_POINTS, may_have_small_parts, small_parts
 from .lattice import ASIDE, Lattice, lattice_step
-from .outlines import Sides, between, crossings, halved, joined
+from .outlines import NEAREST, Sides, between, crossings, halved, joined
 from .paths import NOTHING, Paths, PathTracer
 
 LOOKED = 0.02   # share of the rays to outlines that may hit one more mirror and end there, if the depth is automatic
@@ -109,20 +109,22 @@ class BackwardPart:
         key = np.where(at >= 0, self._keys(paths)[at], NOTHING)
         node = np.where(key >= 0, at, -1)
         sides = [self._sides(at, key, axis) for axis in (1, 0)]
-        every, nodes, shares = paths, [], []
+        every, nodes, shares, borders = paths, [], [], [np.zeros(len(spots), dtype=bool)]
         for axis, (where, side) in zip((1, 0), sides):
             share, first, second = self._on_outlines(side, paths, spots, key, where, axis)
+            jumps = self._jumps(side, paths, share, first, second)
             both = np.full((2, height, width), -1)
             for which, ends in enumerate((first, second)):
                 seen = ends[0]
                 both[which][tuple(part[seen] for part in where)] = len(spots) + np.arange(len(seen))
                 every, spots = joined([every, ends[1]]), np.concatenate((spots, ends[2]))
+                borders.append(jumps[seen])
             nodes.append(both)
             shares.append(np.full((height, width), np.inf))
             shares[-1][where] = share
         labels = Labels(key, node, nodes[0], nodes[1], shares[0], shares[1], self._rough(paths, at, key))
         cells = faces_of_cells(labels, cells_of(labels, self.lattice.step, STRAIGHT), len(spots))
-        middle, spot = self._middles(every, spots, cells)
+        middle, spot = self._middles(every, spots, cells, np.concatenate(borders))
         self.counts["rays"] = self.rays
         every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
         return self._moved(every, spots), spots, cells
@@ -210,9 +212,26 @@ class BackwardPart:
         place = origin + depth * ray
         return replace(paths, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
 
-    def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces) -> tuple[Paths, np.ndarray]:
-        """Return the vertices in the middles of cells as paths, and their pixel positions (k, 2)."""
+    @staticmethod
+    def _jumps(side: Sides, paths: Paths, share: np.ndarray, first: tuple, second: tuple) -> np.ndarray:
+        """Return True (m,) for outlines at which the visible surface ends; inside it one triangle follows another."""
+        apart, motion = np.full((2, 3, len(share)), np.nan), np.zeros(len(share))
+        for which, (number, seen, _) in enumerate((first, second)):
+            apart[which][:, number] = seen.point
+            sample, way = ((side.start, share), (side.end, 1.0 - share))[which]
+            moved = norm(seen.point - paths.point[:, sample[number]]) / np.maximum(way[number], NEAREST)
+            motion[number] = np.maximum(motion[number], moved)
+        return ~(norm(apart[0] - apart[1]) <= motion)
+
+    def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces, borders: np.ndarray
+                 ) -> tuple[Paths, np.ndarray]:
+        """Return the vertices in the middles of cells as paths, and their pixel positions (k, 2).
+
+        Where a surface ends in a cell they lie on its border; `borders` (n,) is True for vertices there.
+        """
         crossed = cells.around >= 0
+        of_border = crossed & borders[cells.around]
+        crossed = np.where(of_border.sum(axis=1, keepdims=True) > 1, of_border, crossed)
         spot = (spots[cells.around] * crossed[:, :, None]).sum(axis=1) / np.maximum(crossed.sum(axis=1), 1)[:, None]
         one, other = (paths.select(end) for end in cells.middles.T)
         normal = one.normal + other.normal

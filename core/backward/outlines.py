@@ -72,6 +72,10 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
     unclear = (wrong_first & shown_first) | (wrong_second & shown_second) | ~np.isfinite(found)
     # if another triangle continues across the crossed side, the outline lies somewhere beyond
     unclear |= (on_first & ~shown_second) | (on_second & ~shown_first)
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(own_first(found) - own_second(found))
+        change = np.maximum(*(np.abs(own(1.0) - own(0.0)) for own in (own_first, own_second)))
+    unclear |= (on_first | on_second) & ~(apart <= change)
     unclear |= (found <= 0.0) | (found >= 1.0)
     share[known] = np.clip(np.nan_to_num(found, nan=0.5), NEAREST, 1.0 - NEAREST)
     doubtful[known] = unclear
@@ -129,6 +133,10 @@ def halved(start: Paths, end: Paths, keys: tuple[np.ndarray, np.ndarray],
         # if one end sees nothing, any ray that sees something counts as being on the other end's side
         empty = np.minimum(*keys) < 0
         before = np.where(empty, (own >= 0) == (keys[0] >= 0), own == keys[0])
+        # between two surfaces, a ray to a third triangle counts as being on the one that is about as far away
+        third = np.flatnonzero(~empty[seen] & (key >= 0) & (key != keys[0][seen]) & (key != keys[1][seen]))
+        at, length = seen[third], paths.total[third]
+        before[at] = np.abs(length - start.total[at]) < np.abs(length - end.total[at])
         low, high = np.where(before, middle, low), np.where(before, high, middle)
         for which, chosen in enumerate((before & (own == keys[0]), ~before & (own == keys[1]))):
             some = np.flatnonzero(chosen[seen])
@@ -169,8 +177,11 @@ def _left(start: Paths, end: Paths, met: SceneAndMirrors
     with np.errstate(divide="ignore", invalid="ignore"):
         near = dot(start.point - start.origin, start.ray)
         far = frames.distance(column, end.origin, end.ray)
-        here, there = frames.weights(column, start.point), frames.weights(column, end.origin + far * end.ray)
-        shares = np.where(there < 0.0, np.maximum(here, 0.0) / (here - there), 1.0)
+        normal = frames.normal[:, column]
+        here = np.maximum(frames.weights(column, start.point), 0.0) * np.abs(dot(normal, start.ray))
+        there = frames.weights(column, end.origin + far * end.ray) * np.abs(dot(normal, end.ray))
+        # times the cosine at which the ray meets the plane, weights change linearly with the ray, also where it grazes
+        shares = np.where(there < 0.0, here / (here - there), 1.0)
         share = shares.min(axis=0)
     wrong = ~(far > 0.0) | ~np.isfinite(there).all(axis=0)
     mesh, corner = met.tree.mesh, np.argmin(shares, axis=0)

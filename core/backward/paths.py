@@ -43,6 +43,11 @@ class Paths(ColumnArrays):
     later: np.ndarray
     normal: np.ndarray
 
+    @property
+    def total(self) -> np.ndarray:
+        """(n,) float64, path length from the first mirror to the end."""
+        return self.length + norm(self.point - self.origin)
+
 
 @dataclass(frozen=True)
 class PathTracer:
