@@ -53,11 +53,12 @@ class BackwardPart:
         self.counts: dict[str, int] = {}
         self.chosen = np.zeros(len(mirror.triangles), dtype=bool)
         self.lattice = Lattice.around(view, mirror.positions[mirror.used], lattice_step(settings))
-        if not may_have_small_parts(mirror, self.lattice):
+        mirrors = len(met.mirrors.triangles) if self.depth > 1 else 0
+        if not may_have_small_parts(mirror, self.lattice, mirrors):
             return
         whole, self.lattice = self.lattice, self.lattice.coarser(MOST_POINTS)
         self.drawn = self._drawn()
-        chosen = small_parts(mirror, self.lattice, self.drawn[0], self._sees_mirrors if self.depth > 1 else None)
+        chosen = small_parts(mirror, self.lattice, self.drawn[0], self._sees_mirrors, mirrors)
         if not chosen[self.drawn[0][self.drawn[0] >= 0]].any():
             return
         self.chosen = chosen

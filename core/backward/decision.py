@@ -8,39 +8,43 @@ import numpy as np
 from ..geometry import TriangleMesh, connected
 from .lattice import Lattice
 
-# pixels per triangle of a part, visible or not, below which one ray per pixel is less work than cameras; the second is
-# for parts that see mirrors, which cost cameras much more time
-FEW_PIXELS, FEW_IF_MIRRORS = 4.0, 32.0
+FEW_PIXELS = 4.0        # pixels per triangle of a part, visible or not, below which one ray per pixel is less work
+# the same for parts that see mirrors, per triangle of theirs or of any mirror: cameras multiply with each bounce
+FEW_IF_MIRRORS = 1024.0
 MOST_POINTS = 1 << 21   # largest lattice for this selection; larger ones are made coarser
 SPARSE = 8      # lattice points per tested point, along both axes, in the test if a part sees mirrors
 SEEN = 0.02     # share of the tested points that see a mirror, above which the part counts as seeing mirrors
 
 
-def may_have_small_parts(mirror: TriangleMesh, lattice: Lattice) -> bool:
-    """Return False if the mirror's box in the picture has too many pixels per triangle for any part to be small."""
+def may_have_small_parts(mirror: TriangleMesh, lattice: Lattice, mirrors: int) -> bool:
+    """Return False if the mirror's box in the picture has too many pixels per triangle for any part to be small.
+
+    `mirrors` is the number of triangles of all mirrors that it may see, 0 if the depth is one.
+    """
     pixels = lattice.size[0] * lattice.size[1] * lattice.step**2
-    return pixels < 2.0 * FEW_IF_MIRRORS * len(mirror.triangles)
+    return pixels < max(2.0 * FEW_PIXELS * len(mirror.triangles), FEW_IF_MIRRORS * mirrors)
 
 
 def small_parts(mirror: TriangleMesh, lattice: Lattice, face: np.ndarray,
-                sees_mirrors: Callable[[np.ndarray], np.ndarray] | None) -> np.ndarray:
+                sees_mirrors: Callable[[np.ndarray], np.ndarray], mirrors: int) -> np.ndarray:
     """Return True (m,) for triangles of connected parts of the mirror that have few pixels per triangle.
 
     Parameters
     ----------
     face : (n,) int64
         The triangle that is seen at each point of the lattice, -1 for none.
-    sees_mirrors : callable, optional
-        Takes points (k,) of the lattice and returns True (k,) for those that see a mirror in the mirror. None if the
-        depth is one.
+    sees_mirrors : callable
+        Takes points (k,) of the lattice and returns True (k,) for those that see a mirror in the mirror.
+    mirrors : int
+        Number of triangles of all mirrors that it may see, 0 if the depth is one.
     """
     part = connected(mirror.triangles)
     triangles = np.bincount(part)
     at = np.flatnonzero(face >= 0)
     pixels = np.bincount(part[face[at]], minlength=len(triangles)) * lattice.step**2
     chosen = pixels < FEW_PIXELS * triangles
-    doubtful = ~chosen & (pixels < FEW_IF_MIRRORS * triangles)
-    if sees_mirrors is not None and doubtful.any():
+    doubtful = ~chosen & (pixels < FEW_IF_MIRRORS * mirrors)
+    if doubtful.any():
         row, column = np.divmod(at, lattice.size[0])
         some = at[(row % SPARSE == 0) & (column % SPARSE == 0)]
         some = some[doubtful[part[face[some]]]]
