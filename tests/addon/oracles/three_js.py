@@ -15,8 +15,8 @@ import numpy as np
 VIEWER = Path(__file__).parent.parent / "exports" / "viewer"
 THREE = Path(__file__).parents[3] / "build" / "viewer" / "node_modules" / "three"
 FLAGS = ("--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--use-angle=swiftshader",
-         "--enable-unsafe-swiftshader")
+         "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--ignore-gpu-blocklist",
+         "--ozone-platform=headless", "--use-gl=angle", "--use-angle=gl-egl")
 SECONDS = 240.0     # from which on it is taken to hang
 TYPES = {".html": "text/html", ".js": "text/javascript", ".glb": "model/gltf-binary"}
 
