@@ -56,7 +56,7 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
     maps = tuple(bounce.cameras.mirror_map for bounce in bounces)
     for part in parts:
         part["later_mirrors"] = _later_mirrors(maps, part["bounces"], part["map_face"], met)
-    lift: np.ndarray | float = 0.0
+    lift = np.zeros(0)
     if backward is not None:
         lift = np.concatenate((np.zeros(start), backward["lift"]))
         parts.append({name: values for name, values in backward.items() if name != "lift"})
@@ -71,7 +71,9 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
         arrays["positions"] = arrays["mirror_position"]
         return ReflectionMesh(**arrays, maps=maps, map_face=map_face)
     arrays["positions"] = place(view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
-                                met.slide, lift).T
+                                met.slide).T
+    if placement == "LAYERED" and lift.any():
+        arrays["positions"] -= (lift / (1.0 + lift))[:, None] * view.directions(arrays["positions"])
     return ReflectionMesh(**arrays)
 
 

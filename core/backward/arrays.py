@@ -1,6 +1,8 @@
 """Assembly of the part made by rays from the eye, as the plain arrays of the result."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..culling import SceneAndMirrors
@@ -12,58 +14,108 @@ from ..geometry import (
     distinct,
     dot,
     edge_lengths,
+    following,
+    groups,
     norm,
     others,
     rows,
 )
 from .backward_part import BackwardPart
+from .outlines import joined
 from .paths import Paths
 
+ROUNDING = 1e-12    # of the largest coordinate
 SAG_OF_FACE = 4.0 / 3.0     # sag of a face whose three edges sag alike, as a multiple of theirs
 STEEPEST = 0.1      # largest sag of an edge, in viewing distances: at a silhouette planes are seen edge on
 MOST_IN_CELL = 4    # largest number of vertices at one place of the picture: one for each corner of a cell
-CLOSE = 0.1         # pixels: largest distance between the points that they show; with 0.75, p99 of a torus rises by a half
+# pixels: largest distance between the points that they show; with 0.75, the 99th percentile of a torus rises by a half
+CLOSE = 0.1
 
 
 def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     """Return the arrays of `ReflectionMesh` except its positions; triangle indices are in the canonical order.
 
-    `lift` (n,) is how far vertices must move towards the eye so that no face lies behind the mirror, as `place` takes it.
+    `lift` (n,) is how far layers must move towards the eye so that none of their faces lies behind the mirror, in units
+    of `View.directions`.
     """
     paths, spots, cells = part.faces()
     used, corner = distinct(cells.faces.ravel())
     paths, spots, triangles = paths.select(used), spots[used], corner.reshape(-1, 3)
     source = part.source(cells.key)
     close = CLOSE * _motion(paths.point.T[triangles], spots, triangles)
-    kept, triangles = _welded(paths, spots, triangles, source, close, met)
-    paths, spots, close = paths.select(kept), spots[kept], close[kept]
-    found, column = distinct(source)
-    frames = SceneFrames.of(met, found)
-    weights = frames.weights_within(np.repeat(column, 3), paths.point[:, triangles.ravel()]).T.reshape(-1, 3, 3)
-    corners = rows(met.positions[frames.vertices[:, column]])
-    normals = area_normals(corners)
-    height = sum(dot(normals, columns(paths.origin, node) - corners[:, 0]) for node in triangles.T)
+    triangles = _welded(paths, spots, triangles, source, close, met)
+    # faces whose corners have become one are gone
+    some = np.flatnonzero((triangles != following(triangles)).all(axis=1))
+    paths, triangles, weights, sides = _on_sources(paths, triangles[some], source[some], close, met)
+    source = source[some]
+    used, corner = distinct(triangles.ravel())
+    paths, triangles = paths.select(used), corner.reshape(-1, 3)
+
+    corners = rows(met.positions[met.triangles[source].T])
+    height = sum(dot(area_normals(corners), columns(paths.origin, node) - corners[:, 0]) for node in triangles.T)
     turned = np.less(height, 0.0)
     order = np.where(turned[:, None], (0, 2, 1), (0, 1, 2))
-    area = np.linalg.det(weights)
-    parity = np.zeros(len(spots))
-    sign = np.sign(area) * np.where(turned, -1.0, 1.0) * (-1.0)**paths.bounces[triangles[:, 0]]
+    parity = np.zeros(len(used))
+    sign = sides * np.where(turned, -1.0, 1.0) * (-1.0)**paths.bounces[triangles[:, 0]]
     np.add.at(parity, triangles.ravel(), np.repeat(sign, 3))
-    # a face's side along an edge of its source is exactly on that edge
-    greatest = weights.max(axis=2)
-    for corner, (one, other) in enumerate(map(others, range(3))):
-        height, own = norm(normals) / norm(corners[:, one] - corners[:, other]), weights[..., corner]
-        own[(own * height[:, None] <= close[triangles]) & (own < greatest)] = 0.0
-    weights /= weights.sum(axis=2, keepdims=True)
-    face = paths.face[triangles]
+    face, straight = paths.face[triangles], norm(paths.point - paths.place)
     return {
         "triangles": np.take_along_axis(triangles, order, axis=1), "reflected_position": paths.point.T,
-        "mirror_position": paths.place.T, "path_length": paths.total,
+        "mirror_position": paths.place.T,
+        "path_length": np.where(paths.bounces == 1, straight, np.maximum(paths.total, straight)),
         "image_parity": np.sign(parity).astype(np.int8), "mirror_normals": np.moveaxis(paths.normal, 2, 0),
         "source_face": met.of_scene(source), "source_weights": np.take_along_axis(weights, order[:, :, None], axis=1),
         "mirror_face": np.where((face == face[:, :1]).all(axis=1), face[:, 0], -1),
         "map_face": face[:, 0], "bounces": paths.bounces[triangles[:, 0]].astype(np.int8),
         "later_mirrors": paths.later.T[triangles[:, 0]], "lift": _lift(part, paths, triangles)}
+
+
+def _on_sources(paths: Paths, triangles: np.ndarray, source: np.ndarray, close: np.ndarray, met: SceneAndMirrors
+                ) -> tuple[Paths, np.ndarray, np.ndarray, np.ndarray]:
+    """Move the points that vertices show onto the source triangles of their faces.
+
+    Points close to an edge of the source are moved onto it: a face's side along an edge is exactly on that edge. A
+    vertex whose point does not lie on the source triangle of one of its faces becomes two.
+
+    Parameters
+    ----------
+    paths : Paths, the n vertices
+    triangles : (m, 3) int64, vertices of the faces
+    source : (m,) int64, their source triangles
+    close : (n,) float64, distance from an edge in scene units
+
+    Returns
+    -------
+    paths, triangles : the same, with more vertices
+    weights : (m, 3, 3) float64, barycentric coordinates of the faces' corners on their source triangles
+    sides : (m,) float64, 1 if the corners run round the face as those of its source do, -1 if against, 0 if neither
+    """
+    found, column = distinct(source)
+    frames, column = SceneFrames.of(met, found), np.repeat(column, 3)
+    corners = met.positions[met.triangles[source]]
+    area, corner = norm(area_normals(rows(corners.transpose(1, 0, 2)))), triangles.ravel()
+
+    def on_source(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return barycentric coordinates (m, 3, 3) of points (3, 3 m), and the nearest points of the triangles."""
+        weights = frames.weights_within(column, points).T.reshape(-1, 3, 3)
+        return weights, rows(np.matmul(weights, corners).reshape(-1, 3))
+    weights, _ = on_source(paths.point[:, corner])
+    sides = np.sign(np.linalg.det(weights))
+    greatest = weights.max(axis=2)
+    for k, (one, other) in enumerate(map(others, range(3))):
+        height, own = area / norm(rows(corners[:, one] - corners[:, other])), weights[..., k]
+        own[(own * height[:, None] <= close[triangles]) & (own < greatest)] = 0.0
+    weights /= weights.sum(axis=2, keepdims=True)
+    point = paths.point.copy()
+    point[:, corner] = rows(np.matmul(weights, corners).reshape(-1, 3))
+    weights, nearest = on_source(point[:, corner])
+    apart = np.flatnonzero(norm(nearest - point[:, corner]) > ROUNDING * np.abs(corners).max(initial=0.0))
+    first, group = groups(corner[apart], np.repeat(source, 3)[apart])
+    more = paths.select(corner[apart[first]])
+    corner = corner.copy()
+    corner[apart] = point.shape[1] + group
+    point = np.concatenate((point, nearest[:, apart[first]]), axis=1)
+    return replace(joined([paths, more]), point=point), corner.reshape(-1, 3), weights, sides
 
 
 def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray:
@@ -92,8 +144,8 @@ def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray
 def _motion(points: np.ndarray, spots: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return how far the reflected point moves per pixel, (n,) in scene units: the largest value of the faces around.
 
-    `points` (m, 3, 3) are the reflected points at the corners of `triangles` (m, 3), `spots` (n, 2) the vertices' places
-    in pixels.
+    `points` (m, 3, 3) are the reflected points at the corners of `triangles` (m, 3), `spots` (n, 2) the places of the
+    vertices in pixels.
     """
     moved, across = edge_lengths(points).max(axis=1), edge_lengths(spots[triangles]).max(axis=1)
     motion = np.zeros(len(spots))
@@ -102,7 +154,7 @@ def _motion(points: np.ndarray, spots: np.ndarray, triangles: np.ndarray) -> np.
 
 
 def _welded(paths: Paths, spots: np.ndarray, triangles: np.ndarray, source: np.ndarray, close: np.ndarray,
-            met: SceneAndMirrors) -> tuple[np.ndarray, np.ndarray]:
+            met: SceneAndMirrors) -> np.ndarray:
     """Merge vertices at one place of the picture that show one point of an edge between two source triangles.
 
     Line Art and Freestyle then find the edge inside a surface, as they find it in the scene.
@@ -116,10 +168,7 @@ def _welded(paths: Paths, spots: np.ndarray, triangles: np.ndarray, source: np.n
 
     Returns
     -------
-    kept : (k,) int64
-        The vertices that are left.
-    triangles : (m, 3) int64
-        Indices into these.
+    triangles : (m, 3) int64, with one of the vertices at each place
     """
     shown = np.zeros(len(spots), dtype=np.int64)
     shown[triangles] = source[:, None]
@@ -137,5 +186,4 @@ def _welded(paths: Paths, spots: np.ndarray, triangles: np.ndarray, source: np.n
         lowest = np.full(int(group.max()) + 1, len(stands))
         np.minimum.at(lowest, group, pairs.T.ravel())
         stands[pairs.T.ravel()] = lowest[group]
-    kept, corner = distinct(stands[triangles].ravel())
-    return kept, corner.reshape(-1, 3)
+    return stands[triangles]

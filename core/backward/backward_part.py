@@ -22,6 +22,8 @@ from .paths import NOTHING, Paths, PathTracer
 
 LOOKED = 0.02   # share of the rays to outlines that may hit one more mirror and end there, if the depth is automatic
 STRAIGHT = 0.1  # pixels: largest distance of an outline from the straight line that replaces it
+BESIDE = 1e-9   # barycentric coordinate by which a place on a triangle's plane may lie outside of it
+CHORD = 8.0     # pixels, at its depth: largest distance of the middle between two samples from the mirror
 SUNK = 0.5      # share of the gap between layers and the mirror: largest chord sag of a face behind the mirror
 
 
@@ -128,7 +130,7 @@ class BackwardPart:
         middle, spot = self._middles(every, spots, cells, np.concatenate(borders))
         self.counts["rays"] = self.rays
         every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
-        return self._moved(every, spots), spots, cells
+        return self._on_mirror(self._moved(every, spots), spots), spots, cells
 
     def _traced(self, face: np.ndarray, place: np.ndarray, enough: float = 0.0) -> tuple[Paths, np.ndarray]:
         paths, left = self.tracer.traced(face, place, self.depth, max(enough, self.enough) if self.enough else 0.0)
@@ -213,6 +215,35 @@ class BackwardPart:
         place = origin + depth * ray
         return replace(paths, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
 
+    def _on_mirror(self, paths: Paths, spots: np.ndarray) -> Paths:
+        """Return the paths with their places on the mirror, where the view rays at `spots` (n, 2) in pixels meet it.
+
+        Rays that pass by the mirror, beside a silhouette, take the nearest place on the triangle of their path.
+        """
+        surface = self.tracer.surface
+        origin, ray = (given.T for given in self.view.rays(spots))
+        normal = surface.face_normal[:, paths.face]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            place = origin + dot(normal, surface.a[:, paths.face] - origin) / dot(normal, ray) * ray
+            u, v = surface.coordinates(paths.face, place)
+            inside = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -BESIDE
+        some = np.flatnonzero(~inside)
+        found, distance = first_of_many(self.tree, origin[:, some], ray[:, some])
+        distance = np.where(found >= 0, distance, 0.0)
+        near = origin[:, some] + distance * ray[:, some]
+        beside = (given.T for given in self.view.rays(spots[some] + (1.0, 0.0)))
+        pixel = norm(next(beside) + distance * next(beside) - near)
+        close = (found >= 0) & self.chosen[found] & (norm(near - paths.place[:, some]) <= CHORD * pixel)
+        face = paths.face.copy()
+        face[some[close]] = found[close]
+        place[:, some[close]] = near[:, close]
+        some = some[~close]
+        u, v = surface.coordinates(face[some], paths.place[:, some])
+        weights = np.maximum((1.0 - u - v, u, v), 0.0)
+        weights /= weights.sum(axis=0)
+        place[:, some] = np.einsum("kn,nki->in", weights, self.mirror.positions[self.mirror.triangles[face[some]]])
+        return replace(paths, face=face, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
+
     @staticmethod
     def _jumps(side: Sides, paths: Paths, share: np.ndarray, first: tuple, second: tuple) -> np.ndarray:
         """Return True (m,) for outlines at which the visible surface ends; inside it one triangle follows another."""
@@ -222,7 +253,8 @@ class BackwardPart:
             sample, way = ((side.start, share), (side.end, 1.0 - share))[which]
             moved = norm(seen.point - paths.point[:, sample[number]]) / np.maximum(way[number], NEAREST)
             motion[number] = np.maximum(motion[number], moved)
-        return ~(norm(apart[0] - apart[1]) <= motion)
+        with np.errstate(invalid="ignore"):     # points of rays along a plane may be infinitely far away
+            return ~(norm(apart[0] - apart[1]) <= motion)
 
     def _middles(self, paths: Paths, spots: np.ndarray, cells: CellFaces, borders: np.ndarray
                  ) -> tuple[Paths, np.ndarray]:

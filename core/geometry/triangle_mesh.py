@@ -140,8 +140,8 @@ class TriangleMesh:
     def place_of(self) -> np.ndarray:
         """Number (n,) of each vertex's place, equal for vertices at one place: flat faces may not share vertices."""
         order = np.lexsort(self.positions.T[::-1])
-        number = np.empty(len(order), dtype=np.int64)
-        number[order] = np.cumsum((np.diff(self.positions[order], axis=0, prepend=np.nan) != 0.0).any(axis=1)) - 1
+        sorted_positions, number = self.positions[order], np.zeros(len(order), dtype=np.int64)
+        number[order[1:]] = np.cumsum((sorted_positions[1:] != sorted_positions[:-1]).any(axis=1))
         return number
 
     @cached_property

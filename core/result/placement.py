@@ -17,7 +17,7 @@ DEPTH = 2e-3  # share of the viewing distance over which the layers spread
 
 
 def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: str, reach: float = 0.0,
-          share: float = 1.0, lift: np.ndarray | float = 0.0) -> np.ndarray:
+          share: float = 1.0) -> np.ndarray:
     """Compute world positions (3, n) at which to draw nodes that are seen at `places` (3, n) on the mirror.
 
     Parameters
@@ -26,7 +26,6 @@ def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: st
     placement : {'LAYERED', 'SURFACE', 'VIRTUAL'}
     reach : float, length of a path over which the layers of an orthographic view spread at least
     share : float, factor on `GAP` and `DEPTH` for LAYERED
-    lift : (n,) float64, distance towards the eye added for LAYERED, in units of `view.directions`
     """
     if placement == "SURFACE" or not len(path_length):
         return places
@@ -36,6 +35,6 @@ def place(view: View, places: np.ndarray, path_length: np.ndarray, placement: st
         return places + ahead * distance
     if view.orthographic:
         size = share * np.ptp(places, axis=1).max()
-        return places - (size * (GAP + DEPTH * (1.0 - path_length / max(path_length.max(), reach, 1e-300))) + lift) * ahead
-    nearer = share * (GAP + DEPTH / (1.0 + distance)) + lift
+        return places - size * (GAP + DEPTH * (1.0 - path_length / max(path_length.max(), reach, 1e-300))) * ahead
+    nearer = share * (GAP + DEPTH / (1.0 + distance))
     return places - nearer / (1.0 + nearer) * ahead

@@ -159,11 +159,14 @@ def test_a_scene_far_from_the_origin_gives_the_same_images(name):
     assert there.counts == elsewhere.counts
     np.testing.assert_array_equal(there.triangles, elsewhere.triangles)
     np.testing.assert_array_equal(there.path_length, elsewhere.path_length)
-    for count in ("candidates", "images"):
-        assert there.counts[count] == here.counts[count]
-    # whether a cell holds the middle of its square, or has it on a side, the last digit decides
-    cut = [mesh.counts["polygons"] - mesh.counts["filled"] for mesh in (here, there)]
-    assert cut[0] == cut[1] > 0
+    if "cameras" in here.counts:
+        for count in ("candidates", "images"):
+            assert there.counts[count] == here.counts[count]
+        # whether a cell holds the middle of its square, or has it on a side, the last digit decides
+        cut = [mesh.counts["polygons"] - mesh.counts["filled"] for mesh in (here, there)]
+        assert cut[0] == cut[1] > 0
+    else:
+        assert there.counts["mirror_pixels"] == here.counts["mirror_pixels"]
     seen = [np.unique(mesh.source_face) for mesh in (here, there)]
     np.testing.assert_array_equal(*seen)
 
