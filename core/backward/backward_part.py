@@ -8,7 +8,7 @@ import numpy as np
 
 from ..cameras import MirrorSurface
 from ..culling import SceneAndMirrors
-from ..geometry import TriangleMesh, dot, norm, unit
+from ..geometry import TriangleMesh, dot, following, norm, unit
 from ..result import GAP
 from ..support import FACE_SHARE, LEFT, Settings, breathe
 from ..trees import SceneTree, first_of_many
@@ -238,11 +238,22 @@ class BackwardPart:
         face[some[close]] = found[close]
         place[:, some[close]] = near[:, close]
         some = some[~close]
-        u, v = surface.coordinates(face[some], paths.place[:, some])
-        weights = np.maximum((1.0 - u - v, u, v), 0.0)
-        weights /= weights.sum(axis=0)
-        place[:, some] = np.einsum("kn,nki->in", weights, self.mirror.positions[self.mirror.triangles[face[some]]])
+        place[:, some] = self._beside(face[some], spots[some])
         return replace(paths, face=face, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
+
+    def _beside(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
+        """Return places (3, n) on mirror triangles `face` (n,), about the nearest to `spots` (n, 2) in the picture."""
+        corners = self.mirror.positions[self.mirror.triangles[face]]
+        flat = corners.reshape(-1, 3)
+        pixels = self.view.pixels(flat).reshape(-1, 3, 2) - spots[:, None]
+        depth = 1.0 if self.view.orthographic else self.view.depths(flat).reshape(-1, 3)
+        one, other = following(pixels), following(following(pixels))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weights = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+            weights = np.maximum(weights / weights.sum(axis=1, keepdims=True), 0.0) / depth
+            weights /= weights.sum(axis=1, keepdims=True)
+        weights[~np.isfinite(weights).all(axis=1)] = 1.0 / 3.0
+        return np.einsum("nk,nki->in", weights, corners)
 
     @staticmethod
     def _jumps(side: Sides, paths: Paths, share: np.ndarray, first: tuple, second: tuple) -> np.ndarray:

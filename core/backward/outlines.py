@@ -74,7 +74,7 @@ def crossings(sides: Sides, paths: Paths, key: np.ndarray, met: SceneAndMirrors)
     unclear |= (on_first & ~shown_second) | (on_second & ~shown_first)
     with np.errstate(invalid="ignore"):
         apart = np.abs(own_first(found) - own_second(found))
-        change = np.maximum(*(np.abs(own(1.0) - own(0.0)) for own in (own_first, own_second)))
+        change = np.maximum(*(np.abs(own(np.ones(1)) - own(np.zeros(1))) for own in (own_first, own_second)))
     unclear |= (on_first | on_second) & ~(apart <= change)
     unclear |= (found <= 0.0) | (found >= 1.0)
     share[known] = np.clip(np.nan_to_num(found, nan=0.5), NEAREST, 1.0 - NEAREST)
