@@ -124,6 +124,10 @@ class Unwrapped:
         paths = LightPaths.empty(self.size[1], self.size[0])
         for part in self.pages + self.points:
             part.draw(paths, further, seen)
+        # between blocks there are unused texels: those beside an outline have fewer neighbours
+        used = np.pad(paths.used, 1)
+        paths.spread[..., 0] = used[1:-1, :-2] & used[1:-1, 2:]
+        paths.spread[..., 1] = used[:-2, 1:-1] & used[2:, 1:-1]
         return paths
 
 
