@@ -118,6 +118,15 @@ class Unwrapped:
     pages: list
     points: list
 
+    @property
+    def of_points(self) -> np.ndarray:
+        """True for texels (h, w) of points: those beside one are of other points, so that it cannot be denoised."""
+        found = np.zeros(self.size[::-1], dtype=bool)
+        for block in self.points:
+            column, row = block.texels().T
+            found[row, column] = True
+        return found
+
     def paths(self, further: FurtherMirrors | None = None, seen: bool = False) -> LightPaths:
         """Return the light path of each texel; those to the world by `further` mirrors too; the path from the eye to
         the reflection itself if `seen`."""
@@ -296,11 +305,11 @@ class PointBlock(Block):
 
     def spots(self, size: np.ndarray) -> np.ndarray:
         """Return the place (n, 2) of each point in a picture of `size` texels, from 0 to 1."""
-        return (self._texels() + 0.5) / size
+        return (self.texels() + 0.5) / size
 
     def draw(self, paths: LightPaths, _: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each point; the path from the eye if `seen`."""
-        column, row = self._texels().T
+        column, row = self.texels().T
         if seen:
             target = self.placed.positions
             origin = target - self.view.directions(target)
@@ -309,7 +318,8 @@ class PointBlock(Block):
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
         paths.lead[row, column] = SEEN_LEAD if seen else POINT_LEAD
 
-    def _texels(self) -> np.ndarray:
+    def texels(self) -> np.ndarray:
+        """Return the column and row (n, 2) of each point in the picture."""
         row, column = np.divmod(np.arange(self.count), self.size[0])
         return np.stack((column, row), axis=1) + self.corner
 

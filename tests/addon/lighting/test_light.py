@@ -159,8 +159,9 @@ def test_points_are_lit_too(blank, room):
     reference = picture(room)
     parts.generate(method="POINTS")
     before = psnr(picture(room), reference)
-    bpy.ops.reflection_mesh.light()
-    assert psnr(picture(room), reference) > before + 6.0
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    # measured: 39.1 dB, and 30.9 before
+    assert psnr(picture(room), reference) > before + 7.5
 
 
 def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
