@@ -26,6 +26,7 @@ MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
+FROM_LAST_MIRROR = 1.0      # the same for one that begins beside the last of several mirrors
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
@@ -254,7 +255,7 @@ class Page:
         if not seen:
             across, up = _before_mirror(across, up, target - origin, normal)
         breathe()
-        left = np.ones_like(target)
+        left, later = np.ones_like(target), np.zeros(0, dtype=np.int64)
         if further is not None and not seen:
             later, places, ahead, tint = further.follow(self.fine, origin[sky])
             later = sky[later]
@@ -267,6 +268,8 @@ class Page:
         paths.used[spot], paths.left[spot], paths.turn[spot] = True, left, faces.turn[face]
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
         lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
+        # lamps that only the last mirror shows are met on the way: the material does not add them
+        lead[later] = FROM_LAST_MIRROR
         paths.lead[spot] = SEEN_LEAD if seen else lead
 
 
