@@ -37,7 +37,8 @@ class FurtherMirrors:
 
     @classmethod
     def of(cls, results: Iterable[bpy.types.Object], lit: Iterable[bpy.types.Object]) -> FurtherMirrors | None:
-        """Return the mirrors of `results`; None if none of those that are `lit` shows mirrors in its mirror."""
+        """Return the mirrors of `results` that mirrors show; None if there are none, or none of those that are `lit`
+        shows mirrors in its mirror."""
         bounces = max(result.reflection_mesh.bounces for result in lit)
         if bounces < 2:
             return None
@@ -46,6 +47,8 @@ class FurtherMirrors:
                                 for one in results if not lost_mirror(one))
         surfaces = [join_mirror(read_meshes(depsgraph, list(parts), mirror=True), list(parts))
                     for parts in mirrors if parts]
+        if not surfaces:
+            return None
         starts = np.cumsum([0, *(len(one.mesh.positions) for one in surfaces)])
         mesh = TriangleMesh(np.concatenate([one.mesh.positions for one in surfaces]),
                             np.concatenate([one.mesh.triangles + start for one, start in zip(surfaces, starts)]),

@@ -13,7 +13,7 @@ from mathutils.kdtree import KDTree
 
 from .light_paths import LightPaths
 
-MOST_PATHS = 4_000_000  # texels of a picture, whose paths take 69 bytes each
+MOST_PATHS = 4_000_000  # texels of a picture, whose paths take 77 bytes each
 MOST = 100_000      # texels that are remembered of a picture; between them places are found by their linear change
 NEAR = 4.0          # texels between those remembered, from which on a point is not in the picture
 APART = 8.0         # times the length that a face's side should have in texels, from which on it spans two parts

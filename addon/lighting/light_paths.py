@@ -28,6 +28,9 @@ class LightPaths:
         the target.
     across, up : (h, w, 3) float32
         Change of the target from one texel to the next one, along a row and along a column.
+    spread : (h, w, 2) float32
+        Shares of `across` and `up` over which samples are spread: 0 beside the outline of what is shown, so that no
+        light of what lies behind it is mixed in.
     turn : (h, w) float32
         Angle in radians by which the direction may change without a change of the light that counts.
     """
@@ -39,6 +42,7 @@ class LightPaths:
     lead: np.ndarray
     across: np.ndarray
     up: np.ndarray
+    spread: np.ndarray
     turn: np.ndarray
 
     @classmethod
@@ -48,7 +52,7 @@ class LightPaths:
         target, origin, across, up = vectors
         lead, turn = (np.zeros((height, width), dtype=np.float32) for _ in range(2))
         return cls(np.zeros((height, width), dtype=bool), np.ones((height, width, 3), dtype=np.float32), target, origin,
-                   lead, across, up, turn)
+                   lead, across, up, np.ones((height, width, 2), dtype=np.float32), turn)
 
     def grown(self, rings: int) -> LightPaths:
         """Return the paths with so many rings of unused texels that take those of a texel beside them.

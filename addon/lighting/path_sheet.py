@@ -134,9 +134,10 @@ def _in_the_fog(paths: LightPaths, radius: float) -> tuple[float, Vector]:
 def _images(paths: LightPaths, back: ExitStack) -> list[bpy.types.Image]:
     """Return images of the targets, the origins, and the targets' changes; in alpha whether, and the lead."""
     height, width = paths.used.shape
+    across, up = paths.spread[..., :1] * paths.across, paths.spread[..., 1:] * paths.up
     made = []
     for name, vectors, alpha in (("Target", paths.target, paths.used), ("Origin", paths.origin, paths.lead),
-                                 ("Across", paths.across, 1.0), ("Up", paths.up, 1.0)):
+                                 ("Across", across, 1.0), ("Up", up, 1.0)):
         image = bpy.data.images.new(f"{NAME} {name}", width, height, alpha=True, float_buffer=True, is_data=True)
         back.callback(bpy.data.images.remove, image)
         image.alpha_mode = "CHANNEL_PACKED"

@@ -26,6 +26,7 @@ MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
+FROM_LAST_MIRROR = 1.0      # the same for one that begins beside the last of several mirrors
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
@@ -118,12 +119,25 @@ class Unwrapped:
     pages: list
     points: list
 
+    @property
+    def of_points(self) -> np.ndarray:
+        """True for texels (h, w) of points: those beside one are of other points, so that it cannot be denoised."""
+        found = np.zeros(self.size[::-1], dtype=bool)
+        for block in self.points:
+            column, row = block.texels().T
+            found[row, column] = True
+        return found
+
     def paths(self, further: FurtherMirrors | None = None, seen: bool = False) -> LightPaths:
         """Return the light path of each texel; those to the world by `further` mirrors too; the path from the eye to
         the reflection itself if `seen`."""
         paths = LightPaths.empty(self.size[1], self.size[0])
         for part in self.pages + self.points:
             part.draw(paths, further, seen)
+        # between blocks there are unused texels: those beside an outline have fewer neighbours
+        used = np.pad(paths.used, 1)
+        paths.spread[..., 0] = used[1:-1, :-2] & used[1:-1, 2:]
+        paths.spread[..., 1] = used[:-2, 1:-1] & used[2:, 1:-1]
         return paths
 
 
@@ -241,7 +255,7 @@ class Page:
         if not seen:
             across, up = _before_mirror(across, up, target - origin, normal)
         breathe()
-        left = np.ones_like(target)
+        left, later = np.ones_like(target), np.zeros(0, dtype=np.int64)
         if further is not None and not seen:
             later, places, ahead, tint = further.follow(self.fine, origin[sky])
             later = sky[later]
@@ -254,6 +268,8 @@ class Page:
         paths.used[spot], paths.left[spot], paths.turn[spot] = True, left, faces.turn[face]
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
         lead = np.where(faces.displaced[face], FROM_MIRROR, np.clip(lead, NEAREST, FARTHEST))
+        # lamps that only the last mirror shows are met on the way: the material does not add them
+        lead[later] = FROM_LAST_MIRROR
         paths.lead[spot] = SEEN_LEAD if seen else lead
 
 
@@ -292,11 +308,11 @@ class PointBlock(Block):
 
     def spots(self, size: np.ndarray) -> np.ndarray:
         """Return the place (n, 2) of each point in a picture of `size` texels, from 0 to 1."""
-        return (self._texels() + 0.5) / size
+        return (self.texels() + 0.5) / size
 
     def draw(self, paths: LightPaths, _: FurtherMirrors | None, seen: bool) -> None:
         """Write the light path of each point; the path from the eye if `seen`."""
-        column, row = self._texels().T
+        column, row = self.texels().T
         if seen:
             target = self.placed.positions
             origin = target - self.view.directions(target)
@@ -305,7 +321,8 @@ class PointBlock(Block):
         paths.used[row, column], paths.target[row, column], paths.origin[row, column] = True, target, origin
         paths.lead[row, column] = SEEN_LEAD if seen else POINT_LEAD
 
-    def _texels(self) -> np.ndarray:
+    def texels(self) -> np.ndarray:
+        """Return the column and row (n, 2) of each point in the picture."""
         row, column = np.divmod(np.arange(self.count), self.size[0])
         return np.stack((column, row), axis=1) + self.corner
 

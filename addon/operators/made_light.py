@@ -72,10 +72,9 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     paths = _paths(context, lit, unwrapped, fog)
     yield 0.08, "Reading the reflection"
     kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
-    with path_scene(context) as scene:
-        steps = render_paths(scene, kept.missing(paths).grown(RIM), samples // dense**2, True)
-        light = yield from shown_while(steps, 0.1, RENDERING)
-    light = kept.completed(light[..., :3], paths, RIM)
+    points = unwrapped.of_points
+    light = yield from _rendered(context, kept.missing(paths), points, samples, dense)
+    light = kept.completed(light, paths, RIM)
     image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
     clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
@@ -90,7 +89,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
         lay_out(placed[result.data].mesh, result, view, spots[result.data], materials[key])
     matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
     with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
-        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1, matte, by_mirror=False)
+        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1,
+                             matte and not points.any(), by_mirror=False)
         seen = yield from shown_while(steps, 0.8, RENDERING)
     if not clear:
         seen[..., 3] = 1.0
@@ -113,6 +113,20 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
             mesh = result.data
             show_light(result, placed[mesh].mesh, materials[result.reflection_mesh.mirror, mesh], told, whole)
     return show
+
+
+def _rendered(context: bpy.types.Context, paths: LightPaths, points: np.ndarray, samples: int, dense: int
+              ) -> Steps[np.ndarray]:
+    """Render the light (h, w, 3) of paths; that of texels of `points` (h, w) is not denoised."""
+    light = np.zeros_like(paths.target)
+    with path_scene(context) as scene:
+        # each point has one texel, each pixel of faces has several
+        for chosen, per_texel, clean in ((points, samples, False), (~points, samples // dense**2, True)):
+            part_of_it = replace(paths, used=paths.used & chosen)
+            if part_of_it.used.any():
+                steps = render_paths(scene, part_of_it.grown(RIM) if clean else part_of_it, per_texel, clean)
+                light += (yield from shown_while(steps, 0.1, RENDERING))[..., :3]
+    return light
 
 
 def _placed(lit: list, view: View, dense: int, whole: AllOrNothing) -> Steps[dict[bpy.types.Mesh, Placed]]:

@@ -185,7 +185,9 @@ def _remember(obj: bpy.types.Object, made: Reflection) -> None:
     record.camera = made.camera
     bring_back(obj)
     record.attributes, record.hidden_faces = made.attributes, made.settings.hidden_faces
-    record.bounces, record.world_faces = made.settings.depth, made.world_faces
+    # automatic bounces are as many as there were to see
+    record.bounces = int(result.counts.get("depth", made.settings.bounces))
+    record.world_faces = made.world_faces
     record.sources.clear()
     for source in made.sources:
         record.sources.add().object = source

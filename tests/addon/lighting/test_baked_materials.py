@@ -66,7 +66,8 @@ def test_what_shines_lights_itself(blank, room, grouped):
 
 @pytest.mark.slow
 def test_gloss_is_not_left_out_where_no_one_place_sees_it_as_the_mirror_does(blank, room):
-    """Of a dark floor under a bright sky, on which two balls rest that are one mirror."""
+    """Of a dark floor under a bright sky, on which two balls rest that are one mirror, and show each other in turn: as
+    many bounces as there are to see, with the sky and the lamp after the last one."""
     scene_of(blank)
     for name in ("Mirror", "Box"):
         bpy.data.objects.remove(bpy.data.objects[name])
@@ -81,10 +82,12 @@ def test_gloss_is_not_left_out_where_no_one_place_sees_it_as_the_mirror_does(bla
     floor.data.materials[0] = principled("Ground", (0.15, 0.15, 0.18), Roughness=0.4)
     blank.scene.world.color = (0.6, 0.7, 0.9)
     parts.select(floor, blank.object)
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
-    assert psnr(picture(room), reference) > 36.0
+    # measured: 37.8 dB, of noise 39.2: the outlines of lamps in the balls' images of each other; with the straight
+    # light of the sky there it is 32.7
+    assert psnr(picture(room), reference) > min(37.0, psnr(other, reference) - 1.5)
 
 
 def _into_a_group(material: bpy.types.Material) -> None:

@@ -64,8 +64,9 @@ def test_lamps_in_the_mirror_are_not_larger_than_they_are(blank, room):
     bpy.ops.reflection_mesh.light()
     lit, white = picture(room), reference.min(axis=2) > 0.99
     assert white.sum() > 10
-    # four hundred times brighter than white, its border is a step that texels cannot show without being negative
-    assert psnr(lit, reference) > 31.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
+    # four hundred times brighter than white, its border is a step that texels cannot show without being negative;
+    # measured: 42.8 dB
+    assert psnr(lit, reference) > 41.0 and (lit.min(axis=2) > 0.99).sum() <= white.sum()
     rows, columns = np.nonzero(white)
     around = slice(rows.min() - 8, rows.max() + 9), slice(columns.min() - 8, columns.max() + 9)
     assert np.median((reference - lit)[around][~white[around]]) < 0.02
@@ -85,13 +86,13 @@ def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
         tint.inputs["Color"].default_value = (0.3, 0.6, 0.5, 1.0)
         link(tree, tint.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
     pane.data.materials.append(made)
-    parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
+    parts.select(pane, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     blank.view_layer.update()
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     bpy.ops.reflection_mesh.light(samples=64)
-    # measured: 45.0 and 45.1 dB
-    assert psnr(picture(room), reference) > 42.5
+    # measured: 43.6 and 44.9 dB, of noise 39.6 and 41.2
+    assert psnr(picture(room), reference) > psnr(other, reference) + 2.5
     assert pane.visible_camera
 
 
@@ -102,14 +103,14 @@ def test_what_stands_behind_a_mirror_that_is_half_open_is_seen_through_it(blank,
     behind.data.materials.append(principled("Red", (0.9, 0.1, 0.05), **{
         "Emission Color": (1.0, 0.2, 0.1, 1.0), "Emission Strength": 2.0}))
     parts.select(*(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
-    reference = picture(room)
+    reference, other = picture(room), picture(room, seed=7)
     behind.hide_render = True
     assert psnr(picture(room), reference) < 30.0
     behind.hide_render = False
     parts.generate()
-    bpy.ops.reflection_mesh.light(samples=64)
-    # measured: 44.3 dB
-    assert psnr(picture(room), reference) > 41.8
+    assert bpy.ops.reflection_mesh.light(samples=64) == {"FINISHED"}
+    # measured: 39.6 dB, of noise 39.0: the mirror itself shows its part, by other samples
+    assert psnr(picture(room), reference) > psnr(other, reference) - 0.5
 
 
 @pytest.mark.slow
@@ -158,8 +159,9 @@ def test_points_are_lit_too(blank, room):
     reference = picture(room)
     parts.generate(method="POINTS")
     before = psnr(picture(room), reference)
-    bpy.ops.reflection_mesh.light()
-    assert psnr(picture(room), reference) > before + 6.0
+    assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
+    # measured: 39.1 dB, and 30.9 before
+    assert psnr(picture(room), reference) > before + 7.5
 
 
 def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
@@ -175,8 +177,8 @@ def test_a_mirror_is_right_beside_what_cuts_through_it(blank, room):
     reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
-    # between texels a world four times as bright as wood is mixed with it along the frame
-    assert psnr(picture(room), reference) > 35.5
+    # measured: 43.9 dB
+    assert psnr(picture(room), reference) > 42.0
     assert not any(bar.is_holdout for bar in bars) and all(bar.visible_camera for bar in bars)
 
 
@@ -196,7 +198,8 @@ def test_results_that_lie_in_their_mirror_or_behind_it_are_lit_in_collections_to
     parts.generate(placement=placement)
     seen = wall.visible_camera
     assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
-    assert psnr(picture(room), reference) > 38.0
+    # measured: 47.6 and 47.8 dB
+    assert psnr(picture(room), reference) > 45.5
     assert wall.visible_camera == seen
 
 
@@ -260,5 +263,5 @@ def test_lamps_thinner_than_a_pixel_have_their_own_colours(blank, room, view):
     reference = picture(room)
     parts.generate()
     assert bpy.ops.reflection_mesh.light() == {"FINISHED"}
-    # measured: 45.5 and 46.0 dB
-    assert psnr(picture(room), reference) > 43.0
+    # measured: 46.7 dB
+    assert psnr(picture(room), reference) > 45.0
