@@ -56,9 +56,10 @@ def prepared(result: bpy.types.Object, view: View, dense: int, whole: AllOrNothi
                     tuple(steady_turn(source.object) for source in record.sources))
     if record.world_faces != "NEVER":
         add_world_faces(mesh, result, view, placed.layered)
+    # before faces are cut: between their corners normals are interpolated as those of the mirror are
+    write_mirror_normals(mesh, view)
     yield 0.0, WRITING
     yield from halve_edges(mesh, lambda: _straying(placed, view, dense))
-    write_mirror_normals(mesh, view)
     # engines darken a face that is shaded by one normal and stands by another
     own = mesh.attributes.get("custom_normal")
     if own is not None:
