@@ -31,7 +31,7 @@ from .known_texels import found_again
 from .needs_light import needs_light
 from .preview import MARK, forget_previews
 from .unwrapping import Placed, Unwrapped, faces_of, unwrap
-from .world_faces import add_world_faces
+from .world_faces import add_world_faces, edges_off_world
 
 COLOUR = "Reflection Light Colour"
 KNOWN = ("mirror_position", "reflected_position")  # what light asks of a mesh
@@ -54,11 +54,12 @@ def prepared(result: bpy.types.Object, view: View, dense: int, whole: AllOrNothi
     placed = Placed(mesh, np.array(place_of(result), dtype=np.float64), record.hidden_faces,
                     record.mirror.session_uid if record.mirror else 0,
                     tuple(steady_turn(source.object) for source in record.sources))
+    # before faces are cut: between their corners normals are interpolated as those of the mirror are
+    write_mirror_normals(mesh, view)
     if record.world_faces != "NEVER":
         add_world_faces(mesh, result, view, placed.layered)
     yield 0.0, WRITING
     yield from halve_edges(mesh, lambda: _straying(placed, view, dense))
-    write_mirror_normals(mesh, view)
     # engines darken a face that is shaded by one normal and stands by another
     own = mesh.attributes.get("custom_normal")
     if own is not None:
@@ -67,11 +68,12 @@ def prepared(result: bpy.types.Object, view: View, dense: int, whole: AllOrNothi
 
 
 def _straying(placed: Placed, view: View, dense: int) -> np.ndarray:
-    """Return the edges along which a place in the picture is not linear."""
+    """Return the edges along which a place in the picture is not linear, or what a mirror shows of the world."""
     clip = view.clip(placed.positions)
     with np.errstate(divide="ignore", invalid="ignore"):
         spots = 0.5 * clip[:, :2] / clip[:, 3:] * view.resolution
-    return edges_that_stray(placed.mesh, dense * spots, clip[:, 3])
+    return np.union1d(edges_that_stray(placed.mesh, dense * spots, clip[:, 3]),
+                      edges_off_world(placed.mesh, view, spots))
 
 
 def lay_out(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, spots: np.ndarray,

@@ -19,6 +19,7 @@ WORLD = -1          # `source_object` of faces that show the world
 NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
 BORDER = 1.05       # of a picture's half width and height: faces reach so far
+STRAYING = 0.1      # pixels by which the world may be shown beside its place
 BEHIND = 1.05       # of the longest path: a virtual image of the world lies behind all others
 
 
@@ -43,9 +44,12 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
         return
     part, weights = _in_the_view(view, surface.mesh.positions[surface.mesh.triangles[chosen]])
     chosen = chosen[part]
-    # vertices of which faces have different normals are several
     corners, normals = (np.einsum("ikn,nix->nkx", weights, values[chosen]).reshape(-1, 3) for values in (
         surface.mesh.positions[surface.mesh.triangles], surface.mesh.corner_normals))
+    # towards the eye, as a whole: beside an outline one of a face's corners may be turned away
+    side = np.einsum("ni,ni->n", normals, view.directions(corners)).reshape(-1, 3).sum(axis=1)
+    normals = np.where(np.repeat(side > 0.0, 3)[:, None], -normals, normals)
+    # vertices of which faces have different normals are several
     own, faces = np.unique(np.column_stack((corners, normals.astype(np.float32))), axis=0, return_inverse=True)
     at, normals = own[:, :3], own[:, 3:]
     far = FAR * max(float(np.ptp(surface.mesh.positions, axis=0).max()), 1e-12)
@@ -80,6 +84,32 @@ def world_targets(view: View, at: np.ndarray, normals: np.ndarray) -> np.ndarray
     `at` (n, 3). They change linearly along a flat mirror (unnormalised rays, DESIGN section 2)."""
     ahead, normals = view.directions(at), unit(normals.T).T
     return at + far_away(view) * (ahead - 2.0 * np.einsum("ni,ni->n", ahead, normals)[:, None] * normals)
+
+
+def edges_off_world(mesh: bpy.types.Mesh, view: View, spots: np.ndarray) -> np.ndarray:
+    """Let the vertices of faces that show the world show it exactly; return the edges (k,) along which a curved mirror
+    turns light otherwise than between their ends, seen at `spots` (n, 2) in pixels, by more than `STRAYING`."""
+    sky = numbers(mesh, "source_object") == WORLD
+    if not sky.any() or NORMAL not in mesh.attributes:
+        return np.empty(0, dtype=np.int64)
+    own = np.zeros(len(mesh.vertices), dtype=bool)
+    own[corner_vertices(mesh)[sky]] = True
+    at, normals, targets = (vectors(mesh, name) for name in ("mirror_position", NORMAL, "reflected_position"))
+    targets[own] = world_targets(view, at[own], normals[own])
+    mesh.attributes["reflected_position"].data.foreach_set("vector", targets.astype(np.float32).reshape(-1))
+    ends = np.empty((len(mesh.edges), 2), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", ends.reshape(-1))
+    edges = np.flatnonzero(own[ends].all(axis=1))
+    ends = ends[edges]
+    middle = at[ends].mean(axis=1)
+    true = world_targets(view, middle, normals[ends].mean(axis=1))
+    # distances along the light path change nothing
+    ahead = unit((true - middle).T).T
+    off, change = (targets[ends].mean(axis=1) - true, targets[ends[:, 1]] - targets[ends[:, 0]])
+    off, change = (np.linalg.norm(one - np.einsum("ni,ni->n", one, ahead)[:, None] * ahead, axis=1)
+                   for one in (off, change))
+    length = np.linalg.norm(spots[ends[:, 1]] - spots[ends[:, 0]], axis=1)
+    return edges[off * length > STRAYING * change]
 
 
 def far_away(view: View) -> float:

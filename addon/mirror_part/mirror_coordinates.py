@@ -102,7 +102,7 @@ class MirrorCoordinates:
         return self.made[key]
 
     def _normal(self) -> bpy.types.NodeSocket:
-        return self.build.add("ShaderNodeAttribute", attribute_name=OWN_NORMAL).outputs["Vector"]
+        return self.build.unit_vector(OWN_NORMAL)
 
     def _layer(self, uv_map: str) -> bpy.types.NodeSocket | None:
         """A UV map that is not linear all over the mirror, from the result's corners."""

@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 
 from ...core import View, breathe, reflecting_normals
-from ...core.geometry import unit
 from ...core.trees import BoxTree, first_hits
 from ..reading import DiffuseScene, corner_vertices, numbers, read_scene, seen_in, vectors
 from ..reading.materials import reflecting_materials
@@ -51,12 +50,12 @@ def write_mirror_layers(mesh: bpy.types.Mesh, mirrors: list, view: View, asked: 
 
 
 def _write_own_space(mesh: bpy.types.Mesh, mirrors: list, part: np.ndarray, asked: set[str]) -> None:
-    """Tell each point of a result its mirror's normal and its place in the mirror's own space; `part` (n,) numbers the
-    mirrors."""
+    """Tell each point of a result its mirror's normal, of any length, and its place in the mirror's own space; `part`
+    (n,) numbers the mirrors."""
     to_world = np.array([mirror.matrix_world for mirror in mirrors], dtype=np.float64)
     if OWN_NORMAL in asked and NORMAL in mesh.attributes:
         turned = np.einsum("ni,nij->nj", vectors(mesh, NORMAL), to_world[part, :3, :3])
-        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", unit(turned.T).T)
+        _write(mesh, OWN_NORMAL, "FLOAT_VECTOR", "POINT", turned)
     if OWN_PLACE in asked:
         # a mirror of no thickness has no way back along it
         back = np.linalg.pinv(to_world[:, :3, :3])[part]

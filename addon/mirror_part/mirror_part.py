@@ -193,7 +193,7 @@ class MirrorPart(ShaderBuilder):
 
     def bend_normals(self, nodes: Iterable[bpy.types.Node]) -> None:
         """Let nodes that go by the surface's normal take the mirror's."""
-        normal = self.add("ShaderNodeAttribute", attribute_name=NORMAL).outputs["Vector"] if self.around.bent else \
+        normal = self.unit_vector(NORMAL) if self.around.bent else \
             self.add("ShaderNodeNewGeometry").outputs["True Normal"]
         for node in nodes:
             socket = node.inputs.get("Normal")

@@ -255,5 +255,7 @@ LACKS = {
     "the mirror by a thousandth of the camera's distance.":
         "Eine Folie oder getönte Scheibe liegt so dicht vor diesem Spiegel, dass die Spiegelung dahinter fehlt: rücke "
         "sie um ein Tausendstel des Kameraabstands vom Spiegel ab.",
+    "The mirror '{}' is left out: its lit reflection stands for it.":
+        "Der Spiegel '{}' wird weggelassen: seine beleuchtete Spiegelung steht für ihn.",
 }
 REPORTS = {**DONE, **KEPT, **LACKS}

@@ -53,6 +53,10 @@ class ShaderBuilder(Builder):
                 self.feed(value, socket)
         return next(socket for socket in node.outputs if socket.enabled)
 
+    def unit_vector(self, attribute: str) -> bpy.types.NodeSocket:
+        """Return the direction of a vector attribute. Interpolated between points, unit vectors are shorter."""
+        return self.vector("NORMALIZE", self.add("ShaderNodeAttribute", attribute_name=attribute).outputs["Vector"])
+
     def combined(self, x, y, z) -> bpy.types.NodeSocket:
         """Return a vector of three numbers."""
         node = self.add("ShaderNodeCombineXYZ")

@@ -38,7 +38,17 @@ def wall(blank):
 @pytest.fixture
 def ball(blank):
     """A smooth ball as the mirror, over a floor and beside two boxes."""
-    ball = parts.add("uv_sphere", "Ball", segments=48, ring_count=24, radius=1.3, location=(0.0, 0.0, 1.3))
+    return with_ball(blank, 24)
+
+
+@pytest.fixture
+def coarse_ball(blank):
+    """The same with triangles so large that each is a camera, in pictures of 64 pixels too."""
+    return with_ball(blank, 8)
+
+
+def with_ball(blank, rings: int):
+    ball = parts.add("uv_sphere", "Ball", segments=2 * rings, ring_count=rings, radius=1.3, location=(0.0, 0.0, 1.3))
     for polygon in ball.data.polygons:
         polygon.use_smooth = True
     others = [parts.add("plane", "Floor", size=12.0), parts.add("cube", "Left", size=1.0, location=(-2.2, -1.5, 0.5)),
@@ -200,7 +210,7 @@ def run(rooms, *arguments) -> int:
 
 
 @pytest.mark.thorough
-def test_the_report_agrees_with_itself(rooms, ball, tmp_path, capsys):
+def test_the_report_agrees_with_itself(rooms, coarse_ball, tmp_path, capsys):
     before = state()
     assert run(rooms, "--output", tmp_path, "--resolution", 64, "--methods", "GENERAL", "RAYS", "ENVIRONMENT") == 0
     assert state() == before

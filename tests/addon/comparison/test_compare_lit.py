@@ -22,14 +22,15 @@ def lit(blank):
 
 # what is random by an object goes by its name, that of an instance by what instances it
 @pytest.mark.thorough
-@pytest.mark.parametrize("source, mirror, measured", [("UV", "Fresnel", 49.1), ("Random", "Tint", 42.0),
-                                                      ("Instances", "", 39.3)])
-def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror, measured):
+@pytest.mark.parametrize("source, mirror", [("UV", "Fresnel"), ("Random", "Tint"), ("Instances", "")])
+def test_compare_tells_how_lit_pictures_differ(lit, tmp_path, source, mirror):
     """Against the mirror as it is, tint and all, and its objects as they are."""
     lit(source, mirror)
     assert bpy.ops.reflection_mesh.compare(filepath=str(tmp_path), samples=32) == {"FINISHED"}
     report = json.loads((tmp_path / "report.json").read_text())
-    assert report["picture"]["mirror"]["psnr_displayed"] > measured - 2.5
+    shown, noise = report["picture"]["mirror"], report["picture"]["noise"]["mirror"]
+    # denoised, the light is nearer than another render
+    assert shown["psnr_displayed"] > noise["psnr_displayed"] + 0.5
     assert "where Cycles equals itself to" in (tmp_path / "report.html").read_text()
 
 
