@@ -8,8 +8,7 @@ import numpy as np
 
 from ..cameras import MirrorSurface
 from ..culling import SceneAndMirrors
-from ..geometry import TriangleMesh, dot, following, norm, unit
-from ..result import GAP
+from ..geometry import TriangleMesh, dot, norm, unit
 from ..support import FACE_SHARE, LEFT, Settings, breathe
 from ..trees import SceneTree, first_of_many
 from ..views import View
@@ -17,14 +16,12 @@ from .cell_faces import CellFaces, faces_of_cells
 from .cells import Labels, cells_of
 from .decision import MOST_POINTS, may_have_small_parts, small_parts
 from .lattice import ASIDE, Lattice, lattice_step
+from .mirror_places import MirrorPlaces
 from .outlines import NEAREST, Sides, between, crossings, halved, joined
 from .paths import NOTHING, Paths, PathTracer
 
 LOOKED = 0.02   # share of the rays to outlines that may hit one more mirror and end there, if the depth is automatic
 STRAIGHT = 0.1  # pixels: largest distance of an outline from the straight line that replaces it
-BESIDE = 1e-9   # barycentric coordinate by which a place on a triangle's plane may lie outside of it
-CHORD = 8.0     # pixels, at its depth: largest distance of the middle between two samples from the mirror
-SUNK = 0.5      # share of the gap between layers and the mirror: largest chord sag of a face behind the mirror
 
 
 class BackwardPart:
@@ -130,7 +127,8 @@ class BackwardPart:
         middle, spot = self._middles(every, spots, cells, np.concatenate(borders))
         self.counts["rays"] = self.rays
         every, spots = joined([every, middle]), np.concatenate((spots, spot)) + ASIDE
-        return self._on_mirror(self._moved(every, spots), spots), spots, cells
+        places = MirrorPlaces(self.view, self.mirror, self.tracer.surface, self.tree, self.chosen)
+        return places.of(self._moved(every, spots), spots), spots, cells
 
     def _traced(self, face: np.ndarray, place: np.ndarray, enough: float = 0.0) -> tuple[Paths, np.ndarray]:
         paths, left = self.tracer.traced(face, place, self.depth, max(enough, self.enough) if self.enough else 0.0)
@@ -215,46 +213,6 @@ class BackwardPart:
         place = origin + depth * ray
         return replace(paths, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
 
-    def _on_mirror(self, paths: Paths, spots: np.ndarray) -> Paths:
-        """Return the paths with their places on the mirror, where the view rays at `spots` (n, 2) in pixels meet it.
-
-        Rays that pass by the mirror, beside a silhouette, take the nearest place on the triangle of their path.
-        """
-        surface = self.tracer.surface
-        origin, ray = (given.T for given in self.view.rays(spots))
-        normal = surface.face_normal[:, paths.face]
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            place = origin + dot(normal, surface.a[:, paths.face] - origin) / dot(normal, ray) * ray
-            u, v = surface.coordinates(paths.face, place)
-            inside = np.minimum(np.minimum(u, v), 1.0 - u - v) >= -BESIDE
-        some = np.flatnonzero(~inside)
-        found, distance = first_of_many(self.tree, origin[:, some], ray[:, some])
-        distance = np.where(found >= 0, distance, 0.0)
-        near = origin[:, some] + distance * ray[:, some]
-        beside = (given.T for given in self.view.rays(spots[some] + (1.0, 0.0)))
-        pixel = norm(next(beside) + distance * next(beside) - near)
-        close = (found >= 0) & self.chosen[found] & (norm(near - paths.place[:, some]) <= CHORD * pixel)
-        face = paths.face.copy()
-        face[some[close]] = found[close]
-        place[:, some[close]] = near[:, close]
-        some = some[~close]
-        place[:, some] = self._beside(face[some], spots[some])
-        return replace(paths, face=face, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
-
-    def _beside(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
-        """Return places (3, n) on mirror triangles `face` (n,), about the nearest to `spots` (n, 2) in the picture."""
-        corners = self.mirror.positions[self.mirror.triangles[face]]
-        flat = corners.reshape(-1, 3)
-        pixels = self.view.pixels(flat).reshape(-1, 3, 2) - spots[:, None]
-        depth = 1.0 if self.view.orthographic else self.view.depths(flat).reshape(-1, 3)
-        one, other = following(pixels), following(following(pixels))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            weights = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
-            weights = np.maximum(weights / weights.sum(axis=1, keepdims=True), 0.0) / depth
-            weights /= weights.sum(axis=1, keepdims=True)
-        weights[~np.isfinite(weights).all(axis=1)] = 1.0 / 3.0
-        return np.einsum("nk,nki->in", weights, corners)
-
     @staticmethod
     def _jumps(side: Sides, paths: Paths, share: np.ndarray, first: tuple, second: tuple) -> np.ndarray:
         """Return True (m,) for outlines at which the visible surface ends; inside it one triangle follows another."""
@@ -289,26 +247,19 @@ class BackwardPart:
     def _rough(self, paths: Paths, at: np.ndarray, key: np.ndarray) -> np.ndarray:
         """Estimate at each point of the lattice the error of faces two steps long, as a share of the tolerance.
 
-        The error is the larger one of two: the deviation of the image, and the chord sag behind the mirror as a share
-        of the gap of layers. It is 0 if the neighbours have other keys. Return an array of the shape of `key`.
+        The error is the deviation of the image. It is 0 if the neighbours have other keys. Return an array of the shape
+        of `key`.
         """
-        view, rough = self.view, np.zeros(key.shape)
-        inner = key[1:-1, 1:-1]
+        rough, inner = np.zeros(key.shape), key[1:-1, 1:-1]
         same = {(row, column): (key[1 + row:key.shape[0] - 1 + row, 1 + column:key.shape[1] - 1 + column] == inner)
                 & (inner >= 0) for row in (-1, 0, 1) for column in (-1, 0, 1)}
         lattice = lambda row, column: at[1 + row:at.shape[0] - 1 + row, 1 + column:at.shape[1] - 1 + column]  # noqa: E731
-        slide = 0.5 * SUNK * self.met.slide * GAP
         for first, last in (((0, -1), (0, 1)), ((-1, 0), (1, 0)), ((-1, -1), (1, 1)), ((-1, 1), (1, -1))):
             breathe()
             some = np.nonzero(same[first] & same[last])
-            middle, one, other = (lattice(*step)[some] for step in ((0, 0), first, last))
-            point = [paths.point[:, number] for number in (one, middle, other)]
+            point = [paths.point[:, lattice(*step)[some]] for step in (first, (0, 0), last)]
             motion = 0.5 * norm(point[2] - point[0]) / np.hypot(*last)
             away = 0.5 * norm(point[0] + point[2] - 2.0 * point[1])
-            place = [paths.place[:, number] for number in (one, middle, other)]
-            ahead = view.directions(place[1].T).T
-            sunk = dot(0.5 * (place[0] + place[2]) - place[1], ahead)
-            room = slide * (self.tracer.size if view.orthographic else dot(ahead, ahead))
-            bad = np.maximum(away / np.maximum(self.tolerance * motion / self.lattice.step, 1e-300), sunk / room)
+            bad = away / np.maximum(self.tolerance * motion / self.lattice.step, 1e-300)
             np.maximum.at(rough, (some[0] + 1, some[1] + 1), bad)
         return rough

@@ -10,8 +10,8 @@ from tests.inputs.scenes import SCENES
 from tests.oracles.judge import judge
 from tests.oracles.truth_bounces import trace_bounces
 
-# the 99th percentile of displacements in pixels, as measured; one pixel of the torus is uncovered
-MEASURED = {"ball": 0.093, "torus": 0.145, "water": 0.166}
+# the 99th percentile of displacements in pixels, as measured; a pixel of each may be uncovered
+MEASURED = {"ball": 0.175, "torus": 0.192, "water": 0.177}
 
 
 def made(shape: tuple) -> TriangleMesh:
@@ -36,8 +36,8 @@ def test_pixels_show_what_a_ray_tracer_sees(name):
     numbers = judge(view, mirror, scene, mesh)
     assert numbers["uncovered"] < 0.02 and numbers["compared"] > 5000
     assert numbers["p99"] < 1.3 * MEASURED[name]
-    # measured: 0.64 to 1.06
-    assert len(mesh.triangles) < 1.3 * mesh.counts["mirror_pixels"]
+    # measured: 0.33 to 0.79
+    assert len(mesh.triangles) < 0.9 * mesh.counts["mirror_pixels"]
 
 
 def wall(cells: int) -> TriangleMesh:
