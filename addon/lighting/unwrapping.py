@@ -27,6 +27,7 @@ NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
 FROM_LAST_MIRROR = 1.0      # the same for one that begins beside the last of several mirrors
+LEAST_TURN = 0.02   # radians between the samples of a texel, if the light depends on the direction
 POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
@@ -138,6 +139,11 @@ class Unwrapped:
         used = np.pad(paths.used, 1)
         paths.spread[..., 0] = used[1:-1, :-2] & used[1:-1, 2:]
         paths.spread[..., 1] = used[:-2, 1:-1] & used[2:, 1:-1]
+        # samples have one origin: close before the mirror, those of a pane would look in all directions
+        long, texel = (sum(np.linalg.norm(one, axis=2) for one in parts) for parts in (
+            (paths.target - paths.origin,), (paths.across, paths.up)))
+        turn = np.maximum(paths.turn, LEAST_TURN)
+        paths.spread[...] *= np.minimum(turn * long / np.maximum(texel, 1e-30), 1.0)[..., None]
         return paths
 
 

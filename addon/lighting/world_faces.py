@@ -11,7 +11,7 @@ import numpy as np
 from ...core import TriangleMesh, View, draw
 from ...core.geometry import unit
 from ...core.polygons import ConvexPolygons, Line
-from ...core.result import place
+from ...core.result import GAP, place
 from ..reading import corner_vertices, join_mirror, mirrors_of, numbers, read_meshes, vectors
 from ..writing import FIELDS, LATER_MATERIAL, NORMAL, place_of
 
@@ -20,6 +20,7 @@ NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
 BORDER = 1.05       # of a picture's half width and height: faces reach so far
 STRAYING = 0.1      # pixels by which the world may be shown beside its place
+BEFORE_WORLD = 0.75     # of the smallest distance of other layers from the mirror: that of the world's layer
 BEHIND = 1.05       # of the longest path: a virtual image of the world lies behind all others
 
 
@@ -55,7 +56,7 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     far = FAR * max(float(np.ptp(surface.mesh.positions, axis=0).max()), 1e-12)
     path = np.full(len(at), BEHIND * float(numbers(mesh, "path_length").max(initial=0.0)) if record.window else far)
     placement = "VIRTUAL" if record.window else "LAYERED"
-    places = place(view, at.T, path, placement, far).T
+    places = place(view, at.T, path, placement, far, _share(view, vectors(mesh, "mirror_position"), positions, at)).T
     matrix = np.linalg.inv(matrix)
     before = len(mesh.vertices), len(mesh.polygons)
     _extend(mesh, places @ matrix[:3, :3].T + matrix[:3, 3], faces.reshape(-1, 3))
@@ -67,6 +68,18 @@ def add_world_faces(mesh: bpy.types.Mesh, result: bpy.types.Object, view: View, 
     for name, values in (("source_object", WORLD), ("source_face", WORLD), ("bounces", 1),
                          ("mirror_face", surface.triangle[chosen]), *((name, NONE) for name in alone)):
         set_tail(mesh, name, before[1], values)
+
+
+def _share(view: View, on_mirror: np.ndarray, positions: np.ndarray, at: np.ndarray) -> float:
+    """Return the share of the usual gap before the mirror at which faces at places `at` (k, 3) are behind all others.
+
+    Behind a pane close before the mirror, the others lie at a small share of the usual distance too. They are at
+    `positions` (n, 3), and seen at places `on_mirror` (n, 3).
+    """
+    ahead = view.directions(on_mirror)
+    before = np.einsum("ni,ni->n", on_mirror - positions, ahead) / np.einsum("ni,ni->n", ahead, ahead)
+    size = np.ptp(at, axis=0).max() if view.orthographic else 1.0
+    return float(np.clip(BEFORE_WORLD * before.min() / (GAP * size), 0.0, 1.0))
 
 
 def _in_the_view(view: View, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
