@@ -43,6 +43,7 @@ def backward_arrays(part: BackwardPart, met: SceneAndMirrors) -> dict:
     paths, spots, triangles = paths.select(used), spots[used], corner.reshape(-1, 3)
     source = part.source(cells.key)
     close = CLOSE * _motion(paths.point.T[triangles], spots, triangles)
+    close[used < part.samples] = 0.0    # pixel centres stay right
     triangles = _welded(paths, spots, triangles, source, close, met)
     # faces whose corners have become one are gone
     some = np.flatnonzero((triangles != following(triangles)).all(axis=1))
@@ -142,15 +143,14 @@ def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray
 
 
 def _motion(points: np.ndarray, spots: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return how far the reflected point moves per pixel, (n,) in scene units: the largest value of the faces around.
+    """Return how far the reflected point moves per pixel, (n,) in scene units: the mean over the edges of faces around.
 
     `points` (m, 3, 3) are the reflected points at the corners of `triangles` (m, 3), `spots` (n, 2) the places of the
     vertices in pixels.
     """
-    moved, across = edge_lengths(points).max(axis=1), edge_lengths(spots[triangles]).max(axis=1)
-    motion = np.zeros(len(spots))
-    np.maximum.at(motion, triangles, (moved / np.maximum(across, np.finfo(float).tiny))[:, None])
-    return motion
+    moved, across = (np.bincount(triangles.ravel(), np.repeat(edge_lengths(corners).sum(axis=1), 3), len(spots))
+                     for corners in (points, spots[triangles]))
+    return moved / np.maximum(across, np.finfo(float).tiny)
 
 
 def _welded(paths: Paths, spots: np.ndarray, triangles: np.ndarray, source: np.ndarray, close: np.ndarray,

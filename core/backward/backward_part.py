@@ -40,6 +40,8 @@ class BackwardPart:
         True for mirror triangles that are sampled; the others only occlude them.
     rays : int
         Number of rays traced.
+    samples : int
+        Number of samples. They are the first vertices of the faces.
     counts : dict
         Number of sampled pixels of the mirror, and of those that still see a mirror after the last bounce; the depth.
     """
@@ -50,6 +52,7 @@ class BackwardPart:
         self.tolerance = FACE_SHARE * settings.tolerance
         self.rays = 0
         self.counts: dict[str, int] = {}
+        self.samples = 0
         self.chosen = np.zeros(len(mirror.triangles), dtype=bool)
         self.lattice = Lattice.around(view, mirror.positions[mirror.used], lattice_step(settings))
         mirrors = len(met.mirrors.triangles) if self.depth > 1 else 0
@@ -99,7 +102,7 @@ class BackwardPart:
         number = np.flatnonzero(self.drawn[0] >= 0)
         number = number[self.chosen[self.drawn[0][number]]]
         paths, left = self._traced(*self._places(number))
-        pixels = len(number) * lattice.step**2
+        self.samples, pixels = len(number), len(number) * lattice.step**2
         self.counts = {"mirror_pixels": round(pixels), "left_pixels": round(int(left.sum()) * lattice.step**2),
                        "depth": int(paths.bounces.max(initial=1))}
         spots = lattice.spots(number)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cells import AROUND, Cells, Labels
+from .cells import Cells, Labels
 
 BEYOND = ((-1, 0), (0, 1), (1, 0), (0, -1))     # row and column offsets to the cells across each side
 
@@ -140,8 +140,7 @@ class _Ring:
     def meeting_outlines(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Build faces over cells of one step in which several outlines meet; return the same as `round_middles`.
 
-        Between two such cells the outline is a straight line from middle to middle. A square around a point shows its
-        key if all four cells there are of this kind and none of the neighbouring points has that key.
+        Between two such cells the outline is a straight line from middle to middle.
         """
         change, count = self.change, len(self.cells)
         run = np.cumsum(np.roll(change, 1, axis=1), axis=1) - 1
@@ -175,11 +174,7 @@ class _Ring:
 
         beyond = [(np.maximum(rows + row, 0), np.maximum(columns + column, 0)) for row, column in BEYOND]
         straight = np.stack([change[:, k] & meeting[at] for k, at in enumerate(beyond)], axis=1)
-        # count for each lattice point its cells with straight outlines on both sides: with four, it gets a square
-        alone = np.zeros(shape, dtype=np.int64)
-        for k, (row, column) in enumerate(AROUND):
-            np.add.at(alone, (rows + row, columns + column), straight[:, k] & straight[:, k - 1])
-        for k, (row, column) in enumerate(AROUND):
+        for k in range(4):
             following, own = (k + 1) % 4, self.key[:, k]
             bent = change[:, k] & ~straight[:, k]
             yield faces(hub[:, k], self.node[:, k], self.node[:, following], key=own, where=~change[:, k])
@@ -188,10 +183,4 @@ class _Ring:
                         where=bent)
             # this corner's number in the cell across this side is (k + 3) % 4
             across = middle[(k + 3) % 4][beyond[k]]
-            several = alone[rows + row, columns + column] < 4
-            yield faces(self.node[:, k], across, hub[:, k], key=own, where=straight[:, k] & several)
-        square = [hub[:, 0], middle[1][rows, columns - 1], middle[2][rows - 1, columns - 1],
-                  middle[3][rows - 1, columns]]
-        whole = alone[rows, columns] == 4
-        for second, third in ((1, 2), (2, 3)):
-            yield faces(square[0], square[second], square[third], key=self.key[:, 0], where=whole)
+            yield faces(self.node[:, k], across, hub[:, k], key=own, where=straight[:, k])
