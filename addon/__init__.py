@@ -1,4 +1,4 @@
-"""What Blender sees of the extension: roles, operators, panels, a menu and a command; the optics are in `core`."""
+"""The extension in Blender: roles, operators, panels, a menu and a command. The optics are in `core`."""
 from . import command_line, freshness, interface, live, operators, properties, reading, standing
 from .gltf_export import ResultsInGltf
 from .registration import together

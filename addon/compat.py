@@ -12,8 +12,9 @@ RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0)
 
 
 def uses_nodes(material: bpy.types.Material | bpy.types.Light) -> bool:
-    """Whether a node tree makes the material, or a lamp's light; from Blender 5.0 on one always does, and the switch
-    is deprecated."""
+    """Return True if a material or a lamp is defined by a node tree. From Blender 5.0 on every node tree is used, and
+    `use_nodes` is deprecated.
+    """
     if bpy.app.version >= (5, 0, 0):
         return material.node_tree is not None
     return material.use_nodes and material.node_tree is not None
@@ -27,20 +28,22 @@ def use_nodes(material: bpy.types.Material | bpy.types.Light) -> bpy.types.NodeT
 
 
 def eevee_links_light() -> bool:
-    """Whether EEVEE lets a lamp light what it is linked to alone; from 4.3 on."""
+    """Return True if EEVEE supports light linking (from Blender 4.3 on)."""
     return bpy.app.version >= (4, 3, 0)
 
 
 def packs_normals() -> bool:
-    """Whether Cycles rounds shading normals to 2 x 16 bits, which moves what curved mirrors show; from 5.0 on."""
+    """Return True if Cycles rounds shading normals to 2 x 16 bits (from Blender 5.0 on). Rounding shifts reflections in
+    curved mirrors.
+    """
     return bpy.app.version >= (5, 0, 0)
 
 
 def smooth_faces_take_vertex_normals(mesh: bpy.types.Mesh) -> bool:
-    """Whether Cycles shades smooth faces beside flat ones with the vertices' normals, flat faces included.
+    """Return True if Cycles shades the smooth faces of a mesh with vertex normals, which average over flat faces too.
 
-    Before Blender 5.0 it does where flat faces alone make normals split: with sharp edges or custom normals it takes
-    the corners' normals, as the viewport does, and from 5.0 on always.
+    Before Blender 5.0 this happens if the normals of a mesh are split only because some of its faces are flat. With
+    sharp edges or custom normals, and always from 5.0 on, Cycles uses corner normals, as the viewport does.
     """
     if bpy.app.version >= (5, 0, 0) or mesh.has_custom_normals or mesh.normals_domain != "CORNER":
         return False
@@ -97,23 +100,33 @@ def split_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
 
 
 def denoises_corners_well() -> bool:
-    """Whether what is black on two sides leaves no spots in a denoised bake: before Blender 5.0 it does."""
+    """Return True if denoised bakes have no spots in corners between black texels (from Blender 5.0 on)."""
     return bpy.app.version >= (5, 0, 0)
 
 
 def places_in_texels() -> tuple[tuple[float, float], ...]:
-    """Where in a texel the middle of what one bake sees of it has to lie, so that all bakes together see the texel from
-    side to side, along either axis: before Blender 5.0 each sees half of it."""
+    """Return offsets (x, y), in texels from a texel's middle, at which bakes together cover the whole texel.
+
+    Before Blender 5.0 a bake samples half the width and half the height of a texel, so there are two offsets.
+    """
     return ((0.0, 0.0),) if bpy.app.version >= (5, 0, 0) else ((-0.25, -0.25), (0.25, 0.25))
 
 
 def values_stored(attribute: bpy.types.Attribute) -> int:
-    """How many values a mesh's attribute takes room for; from 5.0 on equal ones may be stored once."""
+    """Return the number of values that a mesh attribute stores. From Blender 5.0 on, it may store one value for all
+    elements.
+    """
     return 1 if getattr(attribute, "storage_type", "ARRAY") == "SINGLE" else len(attribute.data)
 
 
 def freestyle_marks(mesh: bpy.types.Mesh, domain: str) -> np.ndarray:
-    """Which edges or faces, by `domain` EDGE or FACE, are marked for Freestyle; from 5.0 on attributes tell."""
+    """Return True (n,) for edges or faces that are marked for Freestyle. From Blender 5.0 on the marks are attributes.
+
+    Parameters
+    ----------
+    domain : {"EDGE", "FACE"}
+        Elements to look up.
+    """
     elements = mesh.edges if domain == "EDGE" else mesh.polygons
     marks = np.zeros(len(elements), dtype=bool)
     if bpy.app.version < (5, 0, 0):
@@ -173,8 +186,11 @@ def _curves(holder: bpy.types.AnimData | bpy.types.NlaStrip) -> list:
 
 
 def dices(scene: bpy.types.Scene, obj: bpy.types.Object) -> bool:
-    """Whether Cycles subdivides an object's last modifier as finely as the picture asks for; its own switch before
-    Blender 5.0, and among the experimental ones."""
+    """Return True if Cycles subdivides an object adaptively in renders, by the size of pixels.
+
+    Its last modifier must be Subdivision Surface. Before Blender 5.0 the switch belongs to the object, and works only
+    with the experimental feature set.
+    """
     last = obj.modifiers[-1] if obj.modifiers else None
     if scene.render.engine != "CYCLES" or last is None or last.type != "SUBSURF" or not last.show_render:
         return False

@@ -1,4 +1,4 @@
-"""What a .blend file remembers: each object's role, what a result was made from, and settings."""
+"""Properties that a .blend file stores: the role of each object, the inputs of each result, and settings."""
 import bpy
 from bpy.props import (
     BoolProperty,

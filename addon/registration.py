@@ -1,4 +1,4 @@
-"""What Blender is told of when the extension is switched on, and what is taken back in the opposite order."""
+"""Register the parts of the extension when it is enabled, and unregister them in reverse order."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ class Handlers:
                 getattr(bpy.app.handlers, name).remove(function)
 
     def are_there(self) -> bool:
-        """Whether nobody has taken one of them away."""
+        """Return True if all handlers are still in Blender's lists."""
         return all(function in getattr(bpy.app.handlers, name) for name, function in self._listed)
 
 

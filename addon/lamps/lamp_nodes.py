@@ -37,7 +37,7 @@ class _Way:
         self.ahead = build.vector("NORMALIZE", way)
 
     def meets(self, lamp: ShownLamp) -> bpy.types.NodeSocket:
-        """How much of its radiance a lamp sends back along the way: nothing where that misses it."""
+        """Return the factor by which a lamp's `radiance` is visible along the light path: 0 if the path misses it."""
         offset = self.build.vector("SUBTRACT", tuple(lamp.place), self.start)
         met = self._flat(lamp, offset) if lamp.shape in {"RECTANGLE", "ELLIPSE"} else self._round(lamp, offset)
         return self.build.calculated("MULTIPLY", met, self._narrowed(lamp)) if lamp.spot or lamp.cone[0] > 0.0 else met
@@ -93,7 +93,10 @@ class _Way:
         return build.calculated("MULTIPLY", build.calculated("MAXIMUM", kept, 0.0), lamp.cone[1])
 
     def _between(self, part: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
-        """Whether a part of the way lies on it: before the mirror, and before what it shows."""
+        """Return 1 if a point of the light path lies between the mirror and the source, else 0.
+
+        `part` is its position: 0 at the mirror, 1 at the source.
+        """
         return self._all(self.build.calculated("GREATER_THAN", part, 0.0),
                          self.build.calculated("LESS_THAN", part, 1.0))
 

@@ -90,9 +90,11 @@ def _shown(depsgraph: bpy.types.Depsgraph, lamp: bpy.types.Object) -> ShownLamp:
 
 
 def lamps_before(mesh: bpy.types.Mesh, lamps: list[ShownLamp], mirrors: list) -> tuple[ShownLamp, ...]:
-    """Those of `lamps` that may stand between one of the `mirrors` and what a face of a result's mesh shows.
+    """Return those of `lamps` that may be visible in front of the source, as one of the `mirrors` shows it.
 
-    A lamp that none of the faces' rays comes near costs nothing then.
+    A lamp is left out if it is far from all light paths between the mirror and the source points, so that it adds no
+    nodes. Only faces seen after one reflection count. The result is empty for a mesh that lacks faces or the attributes
+    `KNOWN`.
     """
     lamps = [one for one in lamps if one.lamp is None or any(is_shown_in(one.lamp, mirror) for mirror in mirrors)]
     if not lamps or not len(mesh.polygons) or any(name not in mesh.attributes for name in KNOWN):
@@ -114,7 +116,15 @@ def lamps_before(mesh: bpy.types.Mesh, lamps: list[ShownLamp], mirrors: list) ->
 
 
 def _is_before(lamp: ShownLamp, start: np.ndarray, end: np.ndarray, some: np.ndarray) -> bool:
-    """Whether a lamp may stand in one of some beams."""
+    """Return True if the bounding sphere of a lamp may intersect one of the beams with indices `some`.
+
+    Parameters
+    ----------
+    start, end : (n, 3, 3) float64
+        Corners of the triangles at which each beam begins and ends.
+    some : (k,) int64
+        Indices of the beams to test.
+    """
     for first in range(0, len(some), CHUNK):
         chunk = some[first:first + CHUNK]
         axes, lowest, highest = _slabs(start[chunk], end[chunk])
@@ -125,8 +135,22 @@ def _is_before(lamp: ShownLamp, start: np.ndarray, end: np.ndarray, some: np.nda
 
 
 def _slabs(start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What bounds the beams (n,) that go from triangles (n, 3, 3) to triangles (n, 3, 3): unit axes (k, n, 3), and from
-    where (k, n) to where along them beams reach (S. Gottschalk et al., "OBBTree", 1996: separating axes)."""
+    """Return the extents of beams along axes that may separate them from a sphere.
+
+    S. Gottschalk et al., "OBBTree", 1996: separating axes.
+
+    Parameters
+    ----------
+    start, end : (n, 3, 3) float64
+        Corners of the triangles at which each beam begins and ends.
+
+    Returns
+    -------
+    axes : (k, n, 3) float64
+        Unit vectors; zero where edges are parallel.
+    lowest, highest : (k, n) float64
+        Bounds of the beam along each axis.
+    """
     ways = end - start
     sides = [corners[:, (1, 2, 0)] - corners for corners in (start, end)]
     axes = [ways.mean(axis=1), *(np.cross(side[:, 0], side[:, 1]) for side in sides),

@@ -1,5 +1,6 @@
-"""Which results look right as they are: what they show emits its own light, and neither their mirror nor fog takes
-anything of it."""
+"""Find results that look right without computed light: the source objects emit light, and neither mirror nor fog
+attenuates it.
+"""
 from __future__ import annotations
 
 import bpy
@@ -17,7 +18,7 @@ PLAIN = {"Metallic": 1.0, "Roughness": 0.0, "Alpha": 1.0, "Transmission Weight":
 
 
 def needs_light(result: bpy.types.Object) -> bool:
-    """Whether a result does not yet look as its mirror does."""
+    """Return True if a result looks different from its mirror without computed light."""
     parts = mirrors_of(result)
     if not parts or not all(map(emits_alike, _shown(result))):
         return True
@@ -27,7 +28,7 @@ def needs_light(result: bpy.types.Object) -> bool:
 
 
 def is_plain(material: bpy.types.Material) -> bool:
-    """Whether a mirror shows all of the light that it meets, sharp and in its own colour."""
+    """Return True if a material only reflects, and does so sharply and without a tint."""
     shader = surface_shader(material.node_tree) if compat.uses_nodes(material) else None
     if shader is None or shader.type not in TINTS:
         return False

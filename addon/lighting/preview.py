@@ -45,7 +45,7 @@ LEAST_OPEN = 1.0 / 256.0  # opacity: what is as open as that shows what shines i
 
 
 def shows_preview(result: bpy.types.Object) -> bool:
-    """Whether a result shows a preview of what it would be with light."""
+    """Return True if a result shows a preview, because its light is not computed yet."""
     return any(slot.link == "OBJECT" and slot.material is not None and MARK in slot.material
                for slot in result.material_slots)
 
@@ -94,8 +94,11 @@ def _mirror_materials(result: bpy.types.Object) -> tuple:
 
 
 def _later(result: bpy.types.Object) -> LaterMirrors:
-    """What a preview knows of later mirrors: in a window, and on what is a mirror by its role alone, nothing is behind
-    it that would know better."""
+    """Return the later mirrors of a result, for its preview.
+
+    `unknown` is False if the mirror is a window, or a mirror by its role alone. Then nothing behind the result shows
+    the reflection, and the preview must not be transparent.
+    """
     found, record = LaterMirrors.of(result), result.reflection_mesh
     mirrors = not record.window and any(map(_mirrors, reflecting_materials(mirrors_of(result))))
     return replace(found, unknown=found.unknown and mirrors)
@@ -106,7 +109,15 @@ def _mirrors(material: bpy.types.Material) -> bool:
 
 
 def _preview(source: bpy.types.Material | None, mirror: tuple, around: Surroundings) -> bpy.types.Material:
-    """What shows a source's material as materials of a mirror do."""
+    """Create a preview material: the unlit colours of the material `source`, as the materials of a mirror reflect them.
+
+    Parameters
+    ----------
+    source : bpy.types.Material or None
+        Material of the source object. It is copied. None is grey.
+    mirror : tuple of bpy.types.Material or None
+        Materials of the mirror. None shows all of the light.
+    """
     if source is not None and compat.uses_nodes(source):
         material = source.copy()
         tree = material.node_tree
@@ -157,8 +168,10 @@ class _Source(ShaderBuilder):
         self.plain = plain
 
     def shown(self, shader: bpy.types.Node | None) -> tuple:
-        """What stands for a shader node, which stays as it is: a colour, as much of it as is not open, and how opaque
-        that is, a socket or a number."""
+        """Return the unlit colour of a shader node, multiplied by its opacity, and its opacity, a socket or a number.
+
+        The node itself is not changed. Without a node the colour is an opaque black.
+        """
         if shader is None or shader.type in OPEN:
             return self.combined(*BLACK), 1.0 if shader is None else 0.0
         if shader.type == "MIX_SHADER":

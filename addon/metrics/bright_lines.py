@@ -1,4 +1,4 @@
-"""Where the brightest line of a picture runs beside a curve: by the mean of profiles across it, region by region."""
+"""Measure the distance of a picture's brightest line from a curve, by mean profiles across the curve in regions."""
 from __future__ import annotations
 
 import numpy as np
@@ -13,21 +13,22 @@ CONTRAST = 1.15  # of the brightest place of a profile to its ends
 
 
 def line_offsets(pictures: dict, middle: np.ndarray, inward: np.ndarray, length: np.ndarray) -> dict:
-    """How far beside a curve the brightest line of each of several pictures runs.
+    """Return the distance of the brightest line from a curve in each of several pictures, region by region.
 
     Parameters
     ----------
     pictures : dict of (height, width) float
-        From the lowest row up; all of them tell the same regions.
+        Pictures by name, rows from the bottom up.
     middle, inward : (n, 2) float64
-        Pieces of the curve in pixels, and unit vectors across it to the lit side.
+        Middles of the curve's segments in pixels, and unit vectors across it to the lit side.
     length : (n,) float64
-        What each piece counts for.
+        Weight of each segment in the mean profile of its region.
 
     Returns
     -------
     offsets : dict of (k,) float64
-        By picture, for each region in which all of them have a bright line: pixels to the lit side.
+        For each picture, signed distances in pixels, positive on the lit side. Regions are left out if any of the
+        pictures has no bright line there.
     """
     at = np.arange(-BEFORE, BEHIND + STEP, STEP)
     places = middle[:, None] + at[None, :, None] * inward[:, None]
@@ -51,7 +52,10 @@ def line_offsets(pictures: dict, middle: np.ndarray, inward: np.ndarray, length:
 
 
 def _peaks(profile: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Where the brightest place of each profile (k, s) lies, by a parabola; not a number where there is none."""
+    """Return the positions (k,) of the maxima of profiles (k, s), refined by a parabola. NaN if no maximum is clear.
+
+    `at` (s,) are the positions of the profiles' samples, in pixels.
+    """
     top = np.argmax(profile, axis=1)
     row, inner = np.arange(len(top)), np.clip(top, PIXEL, len(at) - 1 - PIXEL)
     # a pixel apart: in between they are interpolated

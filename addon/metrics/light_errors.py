@@ -1,4 +1,4 @@
-"""How far the light on surfaces is from that of rays: its flux, and its irradiance over small squares."""
+"""Compare the light on surfaces with traced rays: its total flux, and its irradiance over small squares."""
 from __future__ import annotations
 
 import numpy as np
@@ -109,14 +109,23 @@ def added(names: np.ndarray, flux: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def light_errors(light: tuple[np.ndarray, np.ndarray], thrown: list) -> dict:
-    """How far light in squares is from that of several throws of rays, each of them light in squares too.
+    """Compare the light of a result in squares with that of several independent sets of traced rays.
+
+    Parameters
+    ----------
+    light : tuple of (n,) int64 and (n,) float64
+        Numbers of squares, and the flux in each, as `light_in_squares` returns them.
+    thrown : list of such tuples
+        One for each set of rays, at least two.
 
     Returns
     -------
     errors : dict
-        `flux` and `flux_by_rays`; in per cent of the latter `flux_percent`, how far they are apart, and
-        `irradiance_percent`, the mean difference over the squares; and what the rays' own noise makes of both,
-        `flux_noise_percent` and `irradiance_noise_percent`: for as many throws as these.
+        `flux`; `flux_by_rays`, the mean over the sets; and `squares`, the number of squares that rays meet. In per cent
+        of `flux_by_rays`: `flux_percent`, the difference of both, and `irradiance_percent`, the sum of absolute
+        differences over the squares. `flux_noise_percent` is the standard error of `flux_by_rays`, and
+        `irradiance_noise_percent` the value of `irradiance_percent` that noise of the rays alone makes expected.
+        Percentages are None if rays meet no square.
     """
     every = np.unique(np.concatenate([names for names, _ in (light, *thrown)]))
 

@@ -34,7 +34,7 @@ def flip_map(reference: np.ndarray, test: np.ndarray, pixels_per_degree: float =
 
 
 def reach(pixels_per_degree: float = PIXELS_PER_DEGREE) -> int:
-    """How many pixels far FLIP looks: the radius of its widest filter."""
+    """Return the radius of FLIP's widest filter, in pixels."""
     widest = max(b for channel in SENSITIVITY for _, b in channel)
     return math.ceil(3.0 * math.sqrt(widest / (2.0 * math.pi ** 2)) * pixels_per_degree)
 
@@ -73,7 +73,7 @@ def _balanced(kernel: np.ndarray) -> np.ndarray:
 
 
 def _seen(opponent: np.ndarray, pixels_per_degree: float) -> np.ndarray:
-    """What the eye still resolves of a picture in opponent colours, as linear sRGB in 0..1."""
+    """Filter a picture (height, width, 3) in YyCxCz by the eye's contrast sensitivity. Return linear sRGB in 0..1."""
     radius = reach(pixels_per_degree)
     channels = []
     for index, terms in enumerate(SENSITIVITY):

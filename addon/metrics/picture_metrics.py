@@ -1,4 +1,4 @@
-"""How far apart two pictures are: RMSE, PSNR and relative MSE in linear light, SSIM and FLIP as displayed."""
+"""Compute the errors of a picture: RMSE, PSNR and relative MSE in linear light, SSIM and FLIP as displayed."""
 from __future__ import annotations
 
 import numpy as np

@@ -14,16 +14,16 @@ OTHER_SURFACE = 2.0     # displacement in pixels from which another face counts 
 
 @dataclass(frozen=True)
 class CodedPicture:
-    """What every pixel of a picture shows at its centre.
+    """Object, face and position at the centre of every pixel of a picture.
 
     Attributes
     ----------
     source : (height, width) int64
         Index of the diffuse object, `NOTHING` or `ITSELF`.
     face : (height, width) int64
-        Its polygon, -1 where unknown.
+        Its polygon, -1 if unknown.
     position : (height, width, 3) float64
-        The diffuse point, in world space and scene units; without meaning where `source` is negative.
+        The diffuse point, in world space and scene units. Undefined if `source` is negative.
     """
 
     source: np.ndarray
@@ -54,10 +54,11 @@ class Measurement:
 
 
 def motion_per_pixel(truth: CodedPicture) -> np.ndarray:
-    """How far the true point moves (height, width) from a pixel to the next, in scene units.
+    """Return the distance (height, width), in scene units, between the true points of neighbouring pixels.
 
-    The larger of both axes; along each the smaller of the steps to either side, since the larger may cross to another
-    surface of the same object. NaN where no neighbour along an axis shows the same object.
+    It is the larger of the distances along both axes. Along each axis it is the smaller of the distances to either
+    side, since the larger may cross to another surface of the same object. NaN if no neighbour along an axis shows the
+    same object, and if the distance is zero.
     """
     seen = truth.source >= 0
     axes = []

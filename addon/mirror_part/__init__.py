@@ -1,4 +1,4 @@
-"""What mirrors make of the light that they show: their shaders, with light in place of what is glossy in them."""
+"""Shaders of mirrors for showing reflected light: their own shaders, with emission in place of glossy reflection."""
 from .later_mirrors import LATER, LaterMirrors, write_later_tints
 from .mirror_coordinates import BACK, GENERATED, OWN_NORMAL, OWN_PLACE, asks_for_places, own_layer
 from .mirror_layers import knows_mirror_normals, write_mirror_layers, write_mirror_normals

@@ -1,4 +1,4 @@
-"""What mirrors take of the light that the eye sees by more than one of them."""
+"""Attenuation of light by further mirrors, if the eye sees it after more than one reflection."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -37,13 +37,13 @@ class LaterMirrors:
 
     @classmethod
     def of(cls, result: bpy.types.Object) -> LaterMirrors:
-        """Of a result with faces."""
+        """Return the later mirrors of a result with faces. Both flags are False if it has none."""
         if LATER_MATERIAL.format(2) not in result.data.attributes:
             return cls()
         return cls(any((tint.at(ANGLES) < 1.0).any() for tint in _tints(result)), not all(_is_whole(result)))
 
     def leave(self, build: ShaderBuilder, colour):
-        """What they leave of light of a colour, a socket or the colour itself."""
+        """Return `colour`, a socket or a colour, times the tint of the later mirrors."""
         if not self.takes:
             return colour
         left = build.add("ShaderNodeAttribute", attribute_name=LATER_TINT).outputs["Vector"]
@@ -87,7 +87,10 @@ def _tints(result: bpy.types.Object) -> list[Tint]:
 
 
 def _is_whole(result: bpy.types.Object) -> list[bool]:
-    """Of each of the materials whether its tint tells all that is seen of it."""
+    """Return a flag for each material of the later mirrors: True if its tint alone describes its appearance.
+
+    That holds for mirrors of one colour that are opaque, do not emit and have no coat.
+    """
     materials = [entry.material for entry in result.reflection_mesh.later_materials]
     return [material is None or is_mirror(material) and is_opaque(material) and not glows(material)
             and not _has_coat(material) and Tint.of_material(material).constant for material in materials]

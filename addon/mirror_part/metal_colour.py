@@ -47,7 +47,7 @@ def conductor_colour(build: ShaderBuilder, index, extinction) -> bpy.types.NodeS
 
 
 def _away(build: ShaderBuilder) -> bpy.types.NodeSocket:
-    """What the cosine of the angle at which a surface is seen lacks of one."""
+    """Return one minus the cosine of the viewing angle."""
     node = build.add("ShaderNodeLayerWeight")
     node.inputs["Blend"].default_value = 0.5
     return node.outputs["Facing"]

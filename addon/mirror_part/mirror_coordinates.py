@@ -28,12 +28,14 @@ BY_BOX = {"TEX_CHECKER", "TEX_NOISE", "TEX_VORONOI", "TEX_WAVE", "TEX_MAGIC", "T
 
 
 def own_layer(name: str) -> str:
-    """What an attribute `name` of a mirror is called on its result, which has such of what it shows."""
+    """Return the name under which a result stores the mirror's attribute `name`. A result has attributes of its source
+    objects too, so the mirror's ones get a prefix.
+    """
     return f"Mirror {name}"[:LONGEST_NAME]
 
 
 def asks_for_places(materials: Iterable[bpy.types.Material | None]) -> bool:
-    """Whether any of a mirror's materials changes over it."""
+    """Return True if a material of a mirror may vary over it: it has nodes for coordinates, attributes or textures."""
     asking = {"TEX_COORD", "UVMAP", *NAMED, *BY_UV, *BY_BOX}
     return any(node.type in asking for material in materials if material is not None and compat.uses_nodes(material)
                for node in all_nodes(material.node_tree))
@@ -119,12 +121,25 @@ class MirrorCoordinates:
         return next(iter(layers), None)
 
     def _linear(self, at: bpy.types.NodeSocket, matrix: np.ndarray) -> bpy.types.NodeSocket:
-        """What a matrix (3, 4) makes of a place."""
+        """Return the vector that an affine matrix (3, 4) maps the position `at` to."""
         return self.build.combined(*(self.build.calculated("ADD", self.build.dot(at, tuple(row[:3])), row[3])
                                      for row in matrix.tolist()))
 
     def _matrix(self, name: str, uv_map: str) -> np.ndarray | None:
-        """How coordinates follow from places in the mirror's own space, where they do so evenly."""
+        """Return the affine matrix (3, 4) from positions in the mirror's own space to generated or UV coordinates.
+
+        Parameters
+        ----------
+        name : {"Generated", "UV"}
+        uv_map : str
+            Name of the UV map. Empty for the active one.
+
+        Returns
+        -------
+        matrix : (3, 4) float64 or None
+            None if there is no such matrix: the UV map is missing, is not affine, or may be changed by modifiers, or
+            the mirror has several parts or no mesh.
+        """
         # parts have each their own
         if len(self.mirrors) > 1 or not self.meshes:
             return None

@@ -103,7 +103,7 @@ def _triangles(mesh: bpy.types.Mesh, surface: DiffuseScene, places: np.ndarray, 
 
 
 def knows_mirror_normals(mesh: bpy.types.Mesh) -> bool:
-    """Whether a result knows enough to tell how the mirror stands at each of its points."""
+    """Return True if a result stores the mirror's normal at each point, or positions that determine it."""
     if LATER_MATERIAL.format(2) in mesh.attributes:
         return NORMAL in mesh.attributes
     return all(name in mesh.attributes for name in ("mirror_position", "reflected_position"))

@@ -1,4 +1,6 @@
-"""What a mirror makes of the light that it shows: its own shader, with light in place of what is glossy in it."""
+"""Build shaders that show the reflected light: the mirror's own shader, with its glossy parts replaced by emission of
+that light.
+"""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
@@ -24,20 +26,21 @@ GLOSSY = {"BSDF_GLOSSY", "BSDF_METALLIC"}
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a mirror makes of light goes by, beside its material.
+    """Inputs of a mirror's shader other than its materials.
 
     Attributes
     ----------
     mirrors : tuple of bpy.types.Object
-        On which its textures lie, the parts of one mirror; empty where that does not matter.
+        Objects that the mirror consists of, whose texture coordinates and attributes its shader uses. Empty if it uses
+        none.
     lamps : tuple of ShownLamp
-        That stand before what is shown.
+        Lamps that may be visible in the mirror, in front of the source objects.
     later : LaterMirrors
-        That it shows mirrors in.
+        Further mirrors that are visible in the mirror.
     behind : bool
-        Whether the mirror itself is seen behind what shows the light.
+        True if the mirror itself is visible behind the result. False if it is hidden as a window.
     bent : bool
-        Whether the attribute `NORMAL` tells how the mirror stands; else faces stand as it does.
+        True if the attribute `NORMAL` has the mirror's normals. If False, the true normals of the faces are used.
     """
 
     mirrors: tuple[bpy.types.Object, ...] = ()
@@ -63,7 +66,11 @@ def copied_shaders(mirror: Iterable[bpy.types.Material], tree: bpy.types.NodeTre
 
 
 class MirrorPart(ShaderBuilder):
-    """Adds to a tree what a mirror makes of `light`, a colour; `lit` is what it meets of that."""
+    """Builder of a mirror's shader in a tree.
+
+    `light` is the colour of the reflected light. `lit` is that colour after the later mirrors, plus the lamps in front
+    of the source.
+    """
 
     def __init__(self, tree: bpy.types.NodeTree, light: bpy.types.NodeSocket, around: Surroundings) -> None:
         super().__init__(tree)
@@ -73,8 +80,17 @@ class MirrorPart(ShaderBuilder):
 
     def surface(self, mirror: Sequence[bpy.types.Material | None], shaders: Sequence[bpy.types.Node | None],
                 own: Sequence[bpy.types.Node]) -> bpy.types.NodeSocket:
-        """What materials become that have these shaders and nodes of their `own` in the tree; all other nodes that are
-        there stay as they are."""
+        """Return a surface shader in which each face has its own material, with emission in place of glossy reflection.
+
+        Parameters
+        ----------
+        mirror : sequence of bpy.types.Material or None
+            The mirror's materials. None shows all of the light.
+        shaders : sequence of bpy.types.Node or None
+            The surface shader of each material, copied into the tree.
+        own : sequence of bpy.types.Node
+            All copied nodes of the materials. Other nodes that the tree already has are not changed.
+        """
         others = set(self.tree.nodes) - set(own)
         if self.around.mirrors:
             MirrorCoordinates(self, self.around.mirrors).take_over(list(own))
@@ -88,9 +104,20 @@ class MirrorPart(ShaderBuilder):
 
     def before_the_mirror(self, shown: bpy.types.NodeSocket, mirror: Sequence[bpy.types.Material | None]
                           ) -> bpy.types.NodeSocket:
-        """What Cycles is to see of a surface that lies before the mirror. One that light goes through, glass or what is
-        cut out, shows its reflection as well as what is behind it, and would show the former twice: before that, and
-        before what is seen by mirrors of which that is not all that they show, there is nothing."""
+        """Return the surface shader for Cycles, transparent where the mirror behind the result shows the reflection
+        itself.
+
+        Parts of the mirror that transmit light, such as glass or cut-outs, must stay visible to show the objects behind
+        them. They also show their own reflection, so the result would add it a second time. The same holds for faces
+        that are seen in later mirrors whose appearance is not known completely.
+
+        Parameters
+        ----------
+        shown : bpy.types.NodeSocket
+            The shader that shows the reflected light.
+        mirror : sequence of bpy.types.Material or None
+            The mirror's materials. None counts as opaque.
+        """
         if not self.around.behind or all(map(is_opaque, mirror)) and not self.around.later.unknown:
             return shown
         clear = self.clear()
@@ -101,14 +128,20 @@ class MirrorPart(ShaderBuilder):
         return self.add("ShaderNodeBsdfTransparent").outputs[0]
 
     def part(self, material: bpy.types.Material | None, shader: bpy.types.Node | None) -> bpy.types.NodeSocket:
-        """What one of the mirror's materials becomes, which has this shader."""
+        """Return the surface for one of the mirror's materials. `shader` is its surface shader, copied into the tree.
+
+        A material that is None or has no nodes shows all of the light. A material without a surface shader is black.
+        """
         if material is None or not compat.uses_nodes(material):
             return self.glow(self.lit)
         shown = None if shader is None else self.shown(shader)
         return self.glow(0.0) if shown is None else shown
 
     def shown(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
-        """What a shader node becomes: light where it is glossy, itself where it is not."""
+        """Replace the glossy parts of a shader node by emission of the reflected light. Return the new shader socket.
+
+        Shaders behind Mix and Add Shader nodes are replaced in place. Other shaders are returned unchanged.
+        """
         if shader.type in GLOSSY:
             return self.glow(self.blended("MULTIPLY", 1.0, self.gloss(shader), self.lit))
         if shader.type == "BSDF_PRINCIPLED":
@@ -148,7 +181,10 @@ class MirrorPart(ShaderBuilder):
         return self.added(self.glow(self.blended("MULTIPLY", 1.0, coat, self.lit)), self.mixed(coat, below, None))
 
     def coat(self, shader: bpy.types.Node) -> bpy.types.NodeSocket | None:
-        """How much the sharp coat of a Principled BSDF reflects, by the angle; None where it has none."""
+        """Return the reflectance of a Principled BSDF's sharp coat at the viewing angle. Remove the coat from the node.
+
+        None if there is no sharp coat.
+        """
         if not has_sharp_coat(shader):
             return None
         fresnel = self.add("ShaderNodeFresnel")
@@ -182,7 +218,7 @@ class MirrorPart(ShaderBuilder):
         return glow.outputs[0]
 
     def dielectric(self, shader: bpy.types.Node) -> bpy.types.NodeSocket:
-        """How much a Principled BSDF that is no metal reflects, by the angle."""
+        """Return the Fresnel reflectance of the non-metallic part of a Principled BSDF at the viewing angle."""
         level, index = shader.inputs["Specular IOR Level"], shader.inputs["IOR"]
         fresnel = self.add("ShaderNodeFresnel")
         if level.is_linked or index.is_linked:

@@ -1,4 +1,4 @@
-"""What a mirror of several materials makes of light: each of its faces as its own material does."""
+"""Select the shader of each face by its material, for mirrors with several materials."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -10,7 +10,15 @@ MATERIAL = "mirror_material"
 
 
 def by_material(build: ShaderBuilder, parts: Sequence, mixed: Callable):
-    """One of the `parts`, which stand for the materials in their order; `mixed` makes one of two by a share."""
+    """Mix `parts` so that each face shows the part that belongs to its material, by the attribute `MATERIAL`.
+
+    Parameters
+    ----------
+    parts : sequence
+        One value per reflecting material of the mirror, in their order.
+    mixed : callable
+        `mixed(factor, first, second)` returns a mix of two parts.
+    """
     shown, number = parts[0], None
     for place, part in enumerate(parts[1:], 1):
         number = number or build.add("ShaderNodeAttribute", attribute_name=MATERIAL).outputs["Fac"]

@@ -1,4 +1,4 @@
-"""What light on reflections is told to be, and to lack, in sentences for the user."""
+"""Messages to the user about lit reflections: what was lit, and how it differs from the mirrors."""
 from __future__ import annotations
 
 import bpy

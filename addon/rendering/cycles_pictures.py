@@ -1,4 +1,4 @@
-"""What Cycles renders, as arrays."""
+"""Render scenes with Cycles into arrays."""
 from __future__ import annotations
 
 import os
@@ -62,12 +62,12 @@ def crop_to(render: bpy.types.RenderSettings, low: Sequence[int], high: Sequence
 
 
 def rendered(scene: bpy.types.Scene) -> np.ndarray:
-    """As `rendering`, in one call."""
+    """Render a temporary scene in one call. Return the picture and raise errors as `rendering` does."""
     return finished(rendering(scene))
 
 
 def shown_while(renders: Renders[Found], fraction: float, stage: str) -> Steps[Found]:
-    """What renders as steps, of which the first comes before it; returns what `renders` returns."""
+    """Run a render in steps. Yield (fraction, stage) before it and at each step. Return the result of `renders`."""
     told = render_stage(stage)
     yield fraction, told
     try:

@@ -38,7 +38,7 @@ def copied_scene(context: bpy.types.Context, name: str) -> Iterator[tuple[bpy.ty
 
 
 def _forget_layer_settings(layer: bpy.types.ViewLayer) -> None:
-    """What a view layer sets against its scene, which is told how to render, and against the objects' own materials."""
+    """Reset the settings of a view layer that override the scene's render settings and the objects' materials."""
     layer.use, layer.samples, layer.material_override = True, 0, None
     layer.cycles.use_denoising = True
 

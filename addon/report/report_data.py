@@ -1,4 +1,4 @@
-"""What a report tells, as plain data: runs of methods on scenes, growth with size, counts of work, pictures."""
+"""Contents of a report as plain data: runs of methods on scenes, growth with size, counts of work, pictures."""
 from __future__ import annotations
 
 import csv
@@ -142,7 +142,10 @@ def number(values: dict, path: str) -> float | None:
 
 
 def pareto(costs: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """Which points (n,) bool no other point beats: none is as good in both and better in one."""
+    """Return True (n,) for points on the Pareto front of `costs` (n,) and `errors` (n,), where less is better.
+
+    A point is on the front if no other point is at least as good in both and better in one.
+    """
     costs, errors = np.asarray(costs, dtype=np.float64), np.asarray(errors, dtype=np.float64)
     no_worse = (costs[:, None] <= costs) & (errors[:, None] <= errors)
     better = (costs[:, None] < costs) | (errors[:, None] < errors)

@@ -1,4 +1,4 @@
-"""How the report looks: a quiet page that prints well."""
+"""Style sheet of the report, for screens and for printing."""
 
 STYLE = """
 body { margin: 0; background: #ffffff; color: #222222; font: 16px/1.5 Helvetica, Arial, sans-serif; }

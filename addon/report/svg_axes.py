@@ -25,7 +25,7 @@ class Axis:
     logarithmic: bool = True
 
     def place(self, value: float) -> float:
-        """Where a value is drawn; what lies beyond an end is drawn there."""
+        """Return the coordinate at which a value is drawn. Values beyond an end of the axis are drawn at that end."""
         value = min(max(value, self.low), self.high)
         if self.logarithmic:
             share = math.log(value / self.low) / math.log(self.high / self.low)

@@ -1,4 +1,4 @@
-"""How far the direction of view may turn before a material looks different."""
+"""Estimate the change of viewing direction up to which a material looks the same."""
 from __future__ import annotations
 
 import math
