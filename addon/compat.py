@@ -99,19 +99,6 @@ def split_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
             gc.enable()
 
 
-def denoises_corners_well() -> bool:
-    """Return True if denoised bakes have no spots in corners between black texels (from Blender 5.0 on)."""
-    return bpy.app.version >= (5, 0, 0)
-
-
-def places_in_texels() -> tuple[tuple[float, float], ...]:
-    """Return offsets (x, y), in texels from a texel's middle, at which bakes together cover the whole texel.
-
-    Before Blender 5.0 a bake samples half the width and half the height of a texel, so there are two offsets.
-    """
-    return ((0.0, 0.0),) if bpy.app.version >= (5, 0, 0) else ((-0.25, -0.25), (0.25, 0.25))
-
-
 def values_stored(attribute: bpy.types.Attribute) -> int:
     """Return the number of values that a mesh attribute stores. From Blender 5.0 on, it may store one value for all
     elements.

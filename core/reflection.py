@@ -34,6 +34,7 @@ from .views import LampView, View
 from .visibility import cut_at_borders, cut_before_eye, lit, slide_share, with_shades, without_hidden, without_occluded
 from .whole_faces import WholeFaces, seamed, whole_faces
 
+TRACING = "Tracing rays"
 UNSEEN = "The view does not see the mirror; turn the camera to the mirror or move it into view."
 
 
@@ -137,6 +138,7 @@ def _near_origin(view: View, mirror: TriangleMesh, scene: TriangleMesh | SceneTr
         if backward is None:
             raise
         # cameras see nothing: the part of the mirror made by rays hides the rest
+        progress.next(0.3, TRACING)
         mesh = assemble(view, [], met, settings.placement, backward=backward_arrays(backward, met))
         progress.done("rays", faces=len(mesh.triangles), **backward.counts)
         mesh, error = in_given_order(mesh, tree.given, given), settings.tolerance
@@ -183,12 +185,13 @@ def _forward(met: SceneAndMirrors, settings: Settings, progress: Progress,
     del whole  # free its memory before assembly
 
     progress.start, progress.share = 0.0, 1.0
-    progress.next(0.95, "Sorting by depth")
     error = max(_estimate(*np.concatenate([bounce.left for bounce in bounces], axis=1)), error)
     by_rays = None
     if backward is not None:
+        progress.next(0.9, TRACING)
         by_rays, error = backward_arrays(backward, met), max(error, settings.tolerance)
         progress.done("rays", **backward.counts)
+    progress.next(0.95, "Sorting by depth")
     mesh = assemble(cameras.view, bounces, task.met, settings.placement,
                     None if seams is None else (seams, reach), by_rays)
     depth = max(len(bounces), settings.depth, 1 if backward is None else backward.counts["depth"])

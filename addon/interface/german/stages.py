@@ -13,6 +13,7 @@ READING = {
 REFLECTING = {
     "Preparing the mirror": "Spiegel wird vorbereitet",
     "Finding reflected objects": "Gespiegelte Objekte werden gesucht",
+    "Tracing rays": "Strahlen werden verfolgt",
     "Reflecting vertices": "Punkte werden gespiegelt",
     "Clipping faces": "Flächen werden beschnitten",
     "Reflecting faces": "Flächen werden gespiegelt",

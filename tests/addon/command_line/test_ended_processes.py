@@ -74,7 +74,7 @@ def test_ctrl_c_is_one_sentence(tmp_path):
     scene = tmp_path / "suzanne.blend"
     shutil.copy(Path(__file__).resolve().parents[3] / "sample_blends" / "suzanne.blend", scene)
     with faults.running(**faults.command(scene, "generate", "--output", tmp_path / "out.blend")) as process:
-        assert any("Finding reflected objects" in line for line in process.stdout)
+        assert any("Tracing rays" in line for line in process.stdout)
         interrupted(process, scene)
 
 

@@ -86,9 +86,10 @@ def test_rays_are_exact_at_the_centres_and_a_broken_mesh_is_not(rooms, ball):
     assert rays["mean_error_px"] < 0.01 and rays["coverage_percent"]["all"] < 0.2
     assert len(scene.truths.centres.pixel) > 2000
     mesh = made(rooms, scene, "GENERAL", 0.5)
-    for truths in ([scene.truths.centres], scene.truths.area):
+    # between the pixels' centres a mirror of small triangles shows what the rays beside meet
+    for truths, most in (([scene.truths.centres], 0.5), (scene.truths.area, 0.8)):
         good = rooms.judging.errors(scene.case, truths, mesh)
-        assert good["displacement_px"]["p99"] < 0.5 and good["mean_error_px"] < 0.15
+        assert good["displacement_px"]["p99"] < most and good["mean_error_px"] < 0.15
         # a pixel to the right, which is less where the camera is nearer than the mirror's middle
         drawn = mesh.picture.mesh
         right = scene.case.view.camera_to_world[:3, 0]
