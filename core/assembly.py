@@ -73,7 +73,8 @@ def assemble(view: View, bounces: list[Bounce], met: SceneAndMirrors, placement:
     arrays["positions"] = place(view, arrays["mirror_position"].T, arrays["path_length"], placement, reach,
                                 met.slide).T
     if placement == "LAYERED" and lift.any():
-        arrays["positions"] -= (lift / (1.0 + lift))[:, None] * view.directions(arrays["positions"])
+        nearer = lift if view.orthographic else lift / (1.0 + lift)
+        arrays["positions"] -= nearer[:, None] * view.directions(arrays["positions"])
     return ReflectionMesh(**arrays)
 
 

@@ -26,7 +26,9 @@ from .paths import Paths
 
 ROUNDING = 1e-12    # of the largest coordinate
 SAG_OF_FACE = 4.0 / 3.0     # sag of a face whose three edges sag alike, as a multiple of theirs
-STEEPEST = 0.1      # largest sag of an edge, in viewing distances: at a silhouette planes are seen edge on
+# largest sag of an edge, in viewing distances or, before an orthographic eye, in sizes of the mirror: at a silhouette
+# planes are seen edge on
+STEEPEST = 0.1
 MOST_IN_CELL = 4    # largest number of vertices at one place of the picture: one for each corner of a cell
 # pixels: largest distance between the points that they show; with 0.75, the 99th percentile of a torus rises by a half
 CLOSE = 0.1
@@ -123,12 +125,13 @@ def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray
     """Return how far the mirror lies before the faces around each vertex (n,), in units of `View.directions`."""
     surface, ahead = part.tracer.surface, part.view.directions(paths.place.T).T
     normal, place = surface.face_normal[:, paths.face], surface.a[:, paths.face]
+    most = STEEPEST * (part.tracer.size if part.view.orthographic else 1.0)
 
     def before(one: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Return how far the plane of the mirror at `one` is before `other`, on the view ray of `other`."""
         with np.errstate(divide="ignore", invalid="ignore"):
             found = dot(normal[:, one], paths.place[:, other] - place[:, one]) / dot(normal[:, one], ahead[:, other])
-        return np.clip(np.nan_to_num(found), -STEEPEST, STEEPEST)
+        return np.clip(np.nan_to_num(found), -most, most)
     sag = np.zeros(len(triangles))
     for start, end in zip(triangles.T, np.roll(triangles.T, -1, axis=0)):
         # along an edge, a convex mirror is no nearer than the farther one of the planes at both ends

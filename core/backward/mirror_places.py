@@ -55,10 +55,16 @@ class MirrorPlaces:
         close = (found >= 0) & self.chosen[found] & (norm(near - paths.place[:, some]) <= CHORD * pixel)
         face = paths.face.copy()
         face[some[close]] = found[close]
-        place[:, some[close]] = near[:, close]
+        place[:, some[close]] = self._within(found[close], near[:, close])
         some = some[~close]
         place[:, some] = self._beside(face[some], spots[some])
         return replace(paths, face=face, place=place, origin=np.where(paths.bounces == 1, place, paths.origin))
+
+    def _within(self, face: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Return the `places` (3, n) moved into mirror triangles `face` (n,): rays may pass a little beside a side."""
+        u, v = self.surface.coordinates(face, places)
+        weights = np.maximum((1.0 - u - v, u, v), 0.0)
+        return np.einsum("kn,nki->in", weights / weights.sum(axis=0), self.mirror.positions[self.mirror.triangles[face]])
 
     def _beside(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
         """Return places (3, n) on mirror triangles `face` (n,), about the nearest to `spots` (n, 2) in the picture."""
@@ -69,7 +75,8 @@ class MirrorPlaces:
         one, other = following(pixels), following(following(pixels))
         with np.errstate(divide="ignore", invalid="ignore"):
             weights = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
-            weights = np.maximum(weights / weights.sum(axis=1, keepdims=True), 0.0) / depth
+            # corners behind the eye have no place in the picture
+            weights = np.maximum(np.maximum(weights / weights.sum(axis=1, keepdims=True), 0.0) / depth, 0.0)
             weights /= weights.sum(axis=1, keepdims=True)
         weights[~np.isfinite(weights).all(axis=1)] = 1.0 / 3.0
         return np.einsum("nk,nki->in", weights, corners)

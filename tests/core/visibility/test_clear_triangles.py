@@ -207,7 +207,7 @@ def test_behind_clear_things_mirrors_show_what_they_show_without(name):
         mesh = without(reflect(case.view, case.mirror, scene, opacity=opacity), first)
         seen = judge(case.view, case.mirror, base, mesh, truth)
         # without clear things some of the mirrors are made by rays
-        assert seen["uncovered"] < plain["uncovered"] + 0.05 and seen["p99"] < max(1.2 * plain["p99"], 0.3)
+        assert seen["uncovered"] < plain["uncovered"] + 0.08 and seen["p99"] < max(1.2 * plain["p99"], 0.3)
 
 
 def test_clear_parts_of_a_body_show_its_inner_side():
