@@ -64,7 +64,8 @@ class MirrorPlaces:
         """Return the `places` (3, n) moved into mirror triangles `face` (n,): rays may pass a little beside a side."""
         u, v = self.surface.coordinates(face, places)
         weights = np.maximum((1.0 - u - v, u, v), 0.0)
-        return np.einsum("kn,nki->in", weights / weights.sum(axis=0), self.mirror.positions[self.mirror.triangles[face]])
+        corners = self.mirror.positions[self.mirror.triangles[face]]
+        return np.einsum("kn,nki->in", weights / weights.sum(axis=0), corners)
 
     def _beside(self, face: np.ndarray, spots: np.ndarray) -> np.ndarray:
         """Return places (3, n) on mirror triangles `face` (n,), about the nearest to `spots` (n, 2) in the picture."""
