@@ -137,7 +137,8 @@ def _lift(part: BackwardPart, paths: Paths, triangles: np.ndarray) -> np.ndarray
         # along an edge, a convex mirror is no nearer than the farther one of the planes at both ends
         one, other = (before(start, start), before(start, end)), (before(end, start), before(end, end))
         rise, fall = one[1] - one[0], other[0] - other[1]
-        share = np.clip((other[0] - one[0]) / np.maximum(rise + fall, np.finfo(float).tiny), 0.0, 1.0)
+        with np.errstate(over="ignore"):
+            share = np.clip((other[0] - one[0]) / np.maximum(rise + fall, np.finfo(float).tiny), 0.0, 1.0)
         for way in (0.0, share, 1.0):
             np.maximum(sag, np.minimum(one[0] + way * rise, other[0] - way * fall), out=sag)
     lift = np.zeros(len(paths.face))
