@@ -20,6 +20,10 @@ NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
 BORDER = 1.05       # of a picture's half width and height: faces reach so far
 STRAYING = 0.1      # pixels by which the world may be shown beside its place
+TOPOLOGY = {"position", ".corner_vert", ".corner_edge", ".edge_verts"}
+# number and type of the values of an attribute's elements
+WIDTHS = {"FLOAT": (1, np.float32), "INT": (1, np.int32), "BOOLEAN": (1, bool), "FLOAT_VECTOR": (3, np.float32),
+          "FLOAT2": (2, np.float32), "FLOAT_COLOR": (4, np.float32), "BYTE_COLOR": (4, np.float32)}
 BEFORE_WORLD = 0.75     # of the smallest distance of other layers from the mirror: that of the world's layer
 BEHIND = 1.05       # of the longest path: a virtual image of the world lies behind all others
 
@@ -175,6 +179,7 @@ def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) ->
     mesh.edges.add(len(ends))
     mesh.loops.add(corners.size)
     mesh.polygons.add(len(corners))
+    _clear_tails(mesh, {"POINT": vertices, "EDGE": edges, "CORNER": loops, "FACE": len(mesh.polygons) - len(corners)})
     mesh.polygons.foreach_set("loop_start", np.arange(0, loops + corners.size, 3, dtype=np.int32))
     set_tail(mesh, "position", vertices, positions)
     set_tail(mesh, ".corner_vert", loops, vertices + corners)
@@ -184,6 +189,19 @@ def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) ->
     all_ends[edges:] = vertices + ends
     mesh.edges.foreach_set("vertices", all_ends.reshape(-1))
     mesh.update()
+
+
+def _clear_tails(mesh: bpy.types.Mesh, starts: dict[str, int]) -> None:
+    """Set all attributes of new elements to zero, which Blender 5.2 leaves unset; `starts` has the first by domain."""
+    for attribute in mesh.attributes:
+        width, kind = WIDTHS.get(attribute.data_type, (0, np.float32))
+        start = starts.get(attribute.domain, 0)
+        if not width or attribute.name in TOPOLOGY or start >= len(attribute.data):
+            continue
+        field, values = FIELDS.get(attribute.data_type, "value"), np.empty((len(attribute.data), width), dtype=kind)
+        attribute.data.foreach_get(field, values.reshape(-1))
+        values[start:] = 0
+        attribute.data.foreach_set(field, values.reshape(-1))
 
 
 def set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
