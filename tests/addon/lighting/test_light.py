@@ -15,6 +15,7 @@ QUICK = {("Gloss", ""), ("Alpha", ""), ("UV", "Fresnel")}
 KINDS = [*((kind, "") for kind in SOURCES), *(("UV", kind) for kind in MIRRORS)]
 
 
+@pytest.mark.feature("light")
 @pytest.mark.parametrize(("source", "mirror"), [
     kinds if kinds in QUICK else pytest.param(*kinds, marks=pytest.mark.slow) for kinds in KINDS])
 def test_a_lit_reflection_is_what_the_mirror_shows(blank, room, source, mirror):
