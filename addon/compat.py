@@ -99,6 +99,11 @@ def split_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
             gc.enable()
 
 
+def adds_corners() -> bool:
+    """Return True if corners can be added to a mesh that has some. Blender 5.2 may end where that is tried."""
+    return bpy.app.version < (5, 0, 0)
+
+
 def values_stored(attribute: bpy.types.Attribute) -> int:
     """Return the number of values that a mesh attribute stores. From Blender 5.0 on, it may store one value for all
     elements.

@@ -12,6 +12,7 @@ from ...core import TriangleMesh, View, draw
 from ...core.geometry import unit
 from ...core.polygons import ConvexPolygons, Line
 from ...core.result import GAP, place
+from .. import compat
 from ..reading import corner_vertices, join_mirror, mirrors_of, numbers, read_meshes, vectors
 from ..writing import FIELDS, LATER_MATERIAL, NORMAL, place_of
 
@@ -20,7 +21,6 @@ NONE = -1           # among the materials of later mirrors
 FAR = 1e4           # sizes of the mirror to the points that stand for directions
 BORDER = 1.05       # of a picture's half width and height: faces reach so far
 STRAYING = 0.1      # pixels by which the world may be shown beside its place
-TOPOLOGY = {"position", ".corner_vert", ".corner_edge", ".edge_verts"}
 # number and type of the values of an attribute's elements
 WIDTHS = {"FLOAT": (1, np.float32), "INT": (1, np.int32), "BOOLEAN": (1, bool), "FLOAT_VECTOR": (3, np.float32),
           "FLOAT2": (2, np.float32), "FLOAT_COLOR": (4, np.float32), "BYTE_COLOR": (4, np.float32)}
@@ -168,40 +168,54 @@ def _inner(mask: np.ndarray) -> np.ndarray:
 
 
 def _extend(mesh: bpy.types.Mesh, positions: np.ndarray, corners: np.ndarray) -> None:
-    """Add vertices (n, 3), triangles (m, 3) that number them, and their edges; earlier edges keep their marks.
+    """Add vertices (n, 3), triangles (m, 3) that number them, and their edges; earlier elements keep their attributes.
 
-    Blender's own search for edges would remove these marks.
+    Blender's own search for edges would remove their marks. Blender 5.2 ends where corners are added to a large mesh:
+    there the mesh is built anew. New elements have attributes of zero.
     """
     vertices, edges, loops = len(mesh.vertices), len(mesh.edges), len(mesh.loops)
     sides = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2).reshape(-1, 2), axis=1)
-    ends, side = np.unique(sides, axis=0, return_inverse=True)
-    mesh.vertices.add(len(positions))
-    mesh.edges.add(len(ends))
-    mesh.loops.add(corners.size)
-    mesh.polygons.add(len(corners))
-    _clear_tails(mesh, {"POINT": vertices, "EDGE": edges, "CORNER": loops, "FACE": len(mesh.polygons) - len(corners)})
+    new_ends, side = np.unique(sides, axis=0, return_inverse=True)
+    own_corners, own_edges = numbers(mesh, ".corner_vert"), numbers(mesh, ".corner_edge")
+    ends = np.empty((edges, 2), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", ends.reshape(-1))
+    if compat.adds_corners():
+        kept = []
+    else:
+        kept = [(one.name, one.data_type, one.domain, _values(one)) for one in mesh.attributes
+                if one.data_type in WIDTHS and not one.name.startswith(".")]
+    active = mesh.uv_layers.active.name if mesh.uv_layers.active else ""
+    rendered = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    colours = mesh.color_attributes.active_color_name, mesh.color_attributes.default_color_name
+    if kept:
+        mesh.clear_geometry()
+    mesh.vertices.add(vertices + len(positions) - len(mesh.vertices))
+    mesh.edges.add(edges + len(new_ends) - len(mesh.edges))
+    mesh.loops.add(loops + corners.size - len(mesh.loops))
+    mesh.polygons.add(loops // 3 + len(corners) - len(mesh.polygons))
     mesh.polygons.foreach_set("loop_start", np.arange(0, loops + corners.size, 3, dtype=np.int32))
+    for name, values in ((".corner_vert", np.concatenate((own_corners, (vertices + corners).ravel()))),
+                         (".corner_edge", np.concatenate((own_edges, edges + side.ravel())))):
+        mesh.attributes[name].data.foreach_set("value", values.astype(np.int32))
+    mesh.edges.foreach_set("vertices", np.concatenate((ends, vertices + new_ends)).astype(np.int32).reshape(-1))
+    for name, kind, domain, values in kept:
+        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, kind, domain)
+        values = np.concatenate((values, np.zeros((len(attribute.data) - len(values), values.shape[1]), values.dtype)))
+        attribute.data.foreach_set(FIELDS.get(kind, "value"), values.reshape(-1))
     set_tail(mesh, "position", vertices, positions)
-    set_tail(mesh, ".corner_vert", loops, vertices + corners)
-    set_tail(mesh, ".corner_edge", loops, edges + side)
-    all_ends = np.empty((edges + len(ends), 2), dtype=np.int32)
-    mesh.edges.foreach_get("vertices", all_ends.reshape(-1))
-    all_ends[edges:] = vertices + ends
-    mesh.edges.foreach_set("vertices", all_ends.reshape(-1))
+    if kept:
+        for layer in mesh.uv_layers:
+            layer.active, layer.active_render = layer.name == active, layer.name == rendered
+        mesh.color_attributes.active_color_name, mesh.color_attributes.default_color_name = colours
     mesh.update()
 
 
-def _clear_tails(mesh: bpy.types.Mesh, starts: dict[str, int]) -> None:
-    """Set all attributes of new elements to zero, which Blender 5.2 leaves unset; `starts` has the first by domain."""
-    for attribute in mesh.attributes:
-        width, kind = WIDTHS.get(attribute.data_type, (0, np.float32))
-        start = starts.get(attribute.domain, 0)
-        if not width or attribute.name in TOPOLOGY or start >= len(attribute.data):
-            continue
-        field, values = FIELDS.get(attribute.data_type, "value"), np.empty((len(attribute.data), width), dtype=kind)
-        attribute.data.foreach_get(field, values.reshape(-1))
-        values[start:] = 0
-        attribute.data.foreach_set(field, values.reshape(-1))
+def _values(attribute: bpy.types.Attribute) -> np.ndarray:
+    """Return the values (n, width) of an attribute."""
+    width, kind = WIDTHS[attribute.data_type]
+    values = np.empty((len(attribute.data), width), dtype=kind)
+    attribute.data.foreach_get(FIELDS.get(attribute.data_type, "value"), values.reshape(-1))
+    return values
 
 
 def set_tail(mesh: bpy.types.Mesh, name: str, start: int, values) -> None:
