@@ -1,4 +1,4 @@
-"""Which tests of the core make all mirrors forward."""
+"""Settings of the core's tests: the folders in `FORWARD` test the forward method alone."""
 import pytest
 
 import core.reflection

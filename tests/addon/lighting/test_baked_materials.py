@@ -66,8 +66,10 @@ def test_what_shines_lights_itself(blank, room, grouped):
 
 @pytest.mark.slow
 def test_gloss_is_not_left_out_where_no_one_place_sees_it_as_the_mirror_does(blank, room):
-    """Of a dark floor under a bright sky, on which two balls rest that are one mirror, and show each other in turn: as
-    many bounces as there are to see, with the sky and the lamp after the last one."""
+    """Compare with Cycles two mirror balls on a dark floor under a bright sky.
+
+    They show each other over several bounces, and the sky and the lamp after the last one.
+    """
     scene_of(blank)
     for name in ("Mirror", "Box"):
         bpy.data.objects.remove(bpy.data.objects[name])
