@@ -17,6 +17,16 @@ def still_there(items: list) -> list:
     return [item for item in items if _is_there(item)]
 
 
+def unused(items: list) -> list:
+    """Return the items of this file that are still there and that nothing uses.
+
+    The users are searched for: Blender 4.2 counts twice what the nodes of a copied material use.
+    """
+    items = still_there(items)
+    users = bpy.data.user_map(subset=items)
+    return [item for item in items if not users[item] and not item.use_fake_user and item.library is None]
+
+
 def remove_new(item: bpy.types.ID) -> None:
     """Remove newly made data because a later step has failed. Others may have removed it already."""
     bpy.data.batch_remove(still_there([item]))

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import bpy
 
 from .. import compat
-from ..faults import AllOrNothing
+from ..faults import AllOrNothing, unused
 from ..reading import all_nodes
 from ..writing.nodes.box_projection import project_by
 from ..writing.nodes.shader_builder import ShaderBuilder
@@ -86,9 +86,8 @@ def asks_for_more(tree: bpy.types.NodeTree) -> bool:
 
 def forget_groups() -> None:
     """Remove unused copies of groups; nested ones last."""
-    while abandoned := [group for group in bpy.data.node_groups if group.get(MARK) and not group.users]:
-        for group in abandoned:
-            bpy.data.node_groups.remove(group)
+    while abandoned := unused([group for group in bpy.data.node_groups if group.get(MARK)]):
+        bpy.data.batch_remove(abandoned)
 
 
 def _asked(node: bpy.types.Node) -> dict[str, list]:

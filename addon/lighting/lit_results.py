@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...core import View
-from ..faults import AllOrNothing, Steps, finished, keep_object, remove_new, still_there
+from ..faults import AllOrNothing, Steps, finished, keep_object, remove_new, still_there, unused
 from ..mirror_part import LATER, write_later_tints, write_mirror_layers, write_mirror_normals
 from ..reading import mirrors_of
 from ..reading.materials import asked_attributes
@@ -174,12 +174,10 @@ def forget_light(material: bpy.types.Material) -> None:
     """Remove a material of light, its groups of nodes and its images, if nothing else uses them."""
     if not still_there([material]) or material.users or material.library is not None:
         return
-    images, groups = set(images_of(material)), unblurred_in(material.node_tree)
+    images, groups = list(dict.fromkeys(images_of(material))), unblurred_in(material.node_tree)
     bpy.data.materials.remove(material)
     forget_unblurred(groups)
-    for image in images:
-        if image.users == 0 and image.library is None:
-            bpy.data.images.remove(image)
+    bpy.data.batch_remove(unused(images))
 
 
 def light_sentence(result: bpy.types.Object, outdated: bool) -> str:

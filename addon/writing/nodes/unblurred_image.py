@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import bpy
 
-from ...faults import AllOrNothing, remove_new, still_there
+from ...faults import AllOrNothing, remove_new, unused
 from .copied_nodes import copied
 from .shader_builder import ShaderBuilder
 
@@ -77,10 +77,8 @@ def _unblurred(image: bpy.types.Image, whole: AllOrNothing) -> bpy.types.NodeTre
 
 
 def forget_unblurred(groups: list[bpy.types.NodeTree]) -> None:
-    """Remove such groups, where nothing else uses them."""
-    for group in still_there(groups):
-        if not group.users and group.library is None:
-            bpy.data.node_groups.remove(group)
+    """Remove those node groups of this kind that nothing else uses."""
+    bpy.data.batch_remove(unused(groups))
 
 
 def unblurred_in(tree: bpy.types.NodeTree | None) -> list[bpy.types.NodeTree]:
