@@ -4,7 +4,7 @@ from .further_mirrors import FurtherMirrors
 from .kept_light import KeptLight
 from .known_texels import remember
 from .light_material import alone, new_image, new_material, show_as_cut_out
-from .light_paths import LightPaths
+from .light_paths import LightPaths, grown
 from .lit_results import (
     can_be_lit,
     forget_light,
@@ -26,7 +26,7 @@ from .world_faces import WORLD
 from .world_material import show_world
 
 __all__ = ["FROM_MIRROR", "FurtherMirrors", "KeptLight", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone",
-           "can_be_lit", "forget_light", "forget_previews", "is_cut_out", "is_lit", "is_plain", "keep_light",
+           "can_be_lit", "forget_light", "forget_previews", "grown", "is_cut_out", "is_lit", "is_plain", "keep_light",
            "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image",
            "new_material", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light",
            "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]

@@ -60,16 +60,15 @@ class KeptLight(NamedTuple):
         new, = grown(paths.used & (self.age == 0), [], SEAM)
         return replace(paths, used=paths.used & new)
 
-    def completed(self, light: np.ndarray, paths: LightPaths, rim: int) -> np.ndarray:
-        """Return rendered light of the missing paths with the light that is kept, and a rim around all of it."""
+    def completed(self, light: np.ndarray, paths: LightPaths) -> np.ndarray:
+        """Return rendered light of the missing paths with the light that is kept."""
         if not self.age.any():
             return light
         share = np.zeros(paths.used.shape, dtype=np.float32)
         new = paths.used & (self.age == 0)
         for ring in range(SEAM):
             share[grown(new, [], ring)[0]] += 1.0 / SEAM
-        whole = share[..., None] * light + (1.0 - share[..., None]) * self.light
-        return grown(paths.used, [whole], rim)[1]
+        return share[..., None] * light + (1.0 - share[..., None]) * self.light
 
 
 def steady_turn(source: bpy.types.Object | None) -> float:

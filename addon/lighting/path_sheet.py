@@ -94,7 +94,9 @@ def render_paths(scene: bpy.types.Scene, paths: LightPaths, samples: int, clean:
         render.film_transparent = True
         scene.cycles.samples, scene.cycles.use_denoising = max(samples, 1), False
         if clean:
-            denoise(scene.cycles, "FAST")
+            denoise(scene.cycles)
+            # in the bathroom and the pond at 64 samples a tenth of the time less, for at most 0.1 dB
+            scene.cycles.denoising_prefilter = scene.cycles.denoising_quality = "FAST"
             _stop_early(scene.cycles)
         light = yield from rendering(scene)
         light[..., :3] *= paths.left

@@ -22,6 +22,7 @@ from ..lighting import (
     alone,
     can_be_lit,
     forget_light,
+    grown,
     is_cut_out,
     is_plain,
     lay_out,
@@ -48,7 +49,13 @@ from ..writing import DISC_SCALE, images_of
 NAME = "Reflection Light"
 RENDERING = "Rendering light"
 DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each pixel from which on
-RIM = 4                 # texels around faces that go on as the faces do
+# Several texels of a pixel are denoised by all of its samples, so that with a half of them the room, the bathroom and
+# the pond come out at most 0.15 dB farther from Cycles at 64 samples, and 0.02 dB at 128.
+DENOISED = 2
+RIM = 4                 # texels around faces that go on as the faces do: filters and smaller copies mix them in
+# texels around faces that are rendered too, for the denoiser. In the pond at 64 samples a picture is 42.44 dB from
+# Cycles' with 4 of them, 42.39 with 2, 42.22 with 1 and 39.70 without; with 4, half of all texels are such.
+RENDERED_RIM = 2
 SMALL = 0.05            # of a disc's size
 MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
@@ -74,7 +81,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
     points = unwrapped.of_points
     light = yield from _rendered(context, kept.missing(paths), points, samples, dense)
-    light = kept.completed(light, paths, RIM)
+    light = grown(paths.used, [kept.completed(light, paths)], RIM)[1]
     image = yield from part(new_image(NAME, light, whole), 0.7, 0.05)
     clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
@@ -87,15 +94,16 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
                  for key, result in first.items()}
     for key, result in first.items():
         lay_out(placed[result.data].mesh, result, view, spots[result.data], materials[key])
-    matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True).grown(RIM)
+    matte, paths_seen = any(map(_is_matte, materials.values())), unwrapped.paths(seen=True)
     with path_scene(context) as scene, _copies(scene, lit, placed, materials, matte):
-        steps = render_paths(scene, paths_seen, samples // (MATTE * dense**2) if matte else 1,
+        steps = render_paths(scene, paths_seen.grown(RENDERED_RIM), samples // (MATTE * dense**2) if matte else 1,
                              matte and not points.any(), by_mirror=False)
         seen = yield from shown_while(steps, 0.8, RENDERING)
+    used, seen = grown(paths_seen.used, [seen], RIM)
     if not clear:
         seen[..., 3] = 1.0
     yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
-    if is_cut_out(seen[..., 3][paths_seen.used]):
+    if is_cut_out(seen[..., 3][used]):
         for material in materials.values():
             show_as_cut_out(material)
     seen = straight(seen)
@@ -121,12 +129,17 @@ def _rendered(context: bpy.types.Context, paths: LightPaths, points: np.ndarray,
     light = np.zeros_like(paths.target)
     with path_scene(context) as scene:
         # each point has one texel, each pixel of faces has several
-        for chosen, per_texel, clean in ((points, samples, False), (~points, samples // dense**2, True)):
+        for chosen, per_texel, clean in ((points, samples, False), (~points, _samples_per_texel(samples, dense), True)):
             part_of_it = replace(paths, used=paths.used & chosen)
             if part_of_it.used.any():
-                steps = render_paths(scene, part_of_it.grown(RIM) if clean else part_of_it, per_texel, clean)
+                steps = render_paths(scene, part_of_it.grown(RENDERED_RIM) if clean else part_of_it, per_texel, clean)
                 light += (yield from shown_while(steps, 0.1, RENDERING))[..., :3]
     return light
+
+
+def _samples_per_texel(samples: int, dense: int) -> int:
+    """Return the samples for each texel of faces, which is denoised, by those for each pixel."""
+    return samples if dense == 1 else samples // (DENOISED * dense**2)
 
 
 def _placed(lit: list, view: View, dense: int, whole: AllOrNothing) -> Steps[dict[bpy.types.Mesh, Placed]]:

@@ -42,12 +42,12 @@ def with_cycles(scene: bpy.types.Scene) -> None:
     settings.exr_codec = "ZIP"
 
 
-def denoise(cycles: bpy.types.PropertyGroup, prefilter: str = "ACCURATE") -> None:
-    """Let Cycles' settings `cycles` denoise what is rendered or baked, after a `prefilter` of albedo and normals."""
+def denoise(cycles: bpy.types.PropertyGroup) -> None:
+    """Let Cycles' settings `cycles` denoise what is rendered, by albedo and normals."""
     cycles.use_denoising = True
     try:
         cycles.denoiser = "OPENIMAGEDENOISE"
-        cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", prefilter
+        cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "ACCURATE"
     except TypeError:
         # Linux distributions build Blender without it: then the light has the noise of its samples
         cycles.use_denoising = False
