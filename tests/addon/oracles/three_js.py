@@ -67,7 +67,7 @@ def shown(path: Path, size: tuple[int, int], folder: Path) -> np.ndarray:
     assert not server.failure, server.failure
     picture = folder / "three.png"
     picture.write_bytes(server.picture)
-    return _halved(_read(picture))
+    return halved(_read(picture))
 
 
 def materials(path: Path) -> dict[str, dict]:
@@ -96,7 +96,7 @@ def linear(stored: np.ndarray) -> np.ndarray:
     return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055)**2.4)
 
 
-def _halved(picture: np.ndarray) -> np.ndarray:
+def halved(picture: np.ndarray) -> np.ndarray:
     height, width, channels = picture.shape
     return picture.reshape(height // 2, 2, width // 2, 2, channels).mean(axis=(1, 3))
 
