@@ -19,10 +19,10 @@ from ..reading import corner_vertices, numbers, vectors
 from ..reading.materials import is_displaced
 from ..writing import ARRIVAL, NORMAL
 from .further_mirrors import FurtherMirrors
-from .light_paths import LightPaths
+from .light_paths import STEPS, LightPaths
+from .texel_blocks import Block, blocks_of, pack
 from .world_faces import WORLD, far_away, lies_on_mirror, world_targets
 
-MARGIN = 5          # texels around each block
 NEAREST, FARTHEST = 1e-4, 0.25  # bounds of a path's lead
 ROOM = 1.4          # distances to the mirror across which a texel may reach, half of it to either side
 FROM_MIRROR = 1.0 - 1e-5    # lead of a path that begins at the mirror
@@ -32,6 +32,7 @@ POINT_LEAD = 1e-3   # the same for points, which lie at vertices
 FARTHEST_SPOT = 1e3     # pictures from a picture to the place of a corner in it, which single precision has to tell
 GROUPS = 1 << 30     # more than a reflection has groups of faces
 MOST_BOUNCES = 1 << 8
+SEAM = 2            # pixels that a block shares with another one of its group, up to its border
 SEEN_LEAD = 2e-5    # the same for paths from the eye to a reflection, whose layers lie close together
 
 
@@ -165,7 +166,7 @@ def unwrap(placed: list[Placed], view: View, dense: int) -> Unwrapped:
     pages = [Page(fine, joined, own, pixels[own], joined.group[own])
              for own in (np.flatnonzero(page == number) for number in np.unique(page))]
     points = [PointBlock(one, view) for one in placed if not one.has_faces]
-    size = _pack([block for one in pages for block in one.blocks] + points)
+    size = pack([block for one in pages for block in one.blocks] + points)
     spots, of_points = np.zeros((len(joined.corners), 3, 2)), [block.spots(size) for block in points]
     for one in pages:
         spots[one.own] = (one.pixels + one.shifts[one.block][:, None]) / size
@@ -202,14 +203,6 @@ def faces_of(placed: Placed, view: View) -> Faces:
     return Faces(positions, images, corners, target, origin, sky, displaced, normals, group, turn)
 
 
-@dataclass
-class Block:
-    """A rectangle of texels: width and height, `size` (2,); lowest column and row in the picture, `corner` (2,)."""
-
-    size: np.ndarray
-    corner: np.ndarray
-
-
 class Page:
     """Faces of which none hides another one, in a block for each of their groups.
 
@@ -223,14 +216,9 @@ class Page:
 
     def __init__(self, fine: View, faces: Faces, own: np.ndarray, pixels: np.ndarray, group: np.ndarray) -> None:
         self.fine, self.faces, self.own, self.pixels = fine, faces, own, pixels
-        groups, self.block = np.unique(group, return_inverse=True)
+        self.group = group
         spots = np.clip(np.nan_to_num(pixels), 0, fine.resolution)
-        low, high = np.full((len(groups), 2), np.inf), np.zeros((len(groups), 2))
-        np.minimum.at(low, self.block, spots.min(axis=1))
-        np.maximum.at(high, self.block, spots.max(axis=1))
-        self.low = np.floor(low).astype(np.int64) - MARGIN
-        sizes = np.ceil(high).astype(np.int64) + MARGIN - self.low
-        self.blocks = [Block(size, np.zeros(2, dtype=np.int64)) for size in sizes]
+        self.block, self.low, self.blocks = blocks_of(group, spots)
 
     @property
     def shifts(self) -> np.ndarray:
@@ -241,7 +229,7 @@ class Page:
         """Write the light path of each texel whose centre a face covers; the path from the eye if `seen`."""
         faces, width = self.faces, self.fine.resolution[0]
         drawn = draw(self.fine, faces.images, faces.corners[self.own])
-        at = np.flatnonzero(drawn.triangle >= 0)
+        at, block = self._texels(drawn.triangle)
         row, column = np.divmod(at, width)
         own, weights = drawn.triangle[at], drawn.weights[:, at]
         face = self.own[own]
@@ -269,7 +257,7 @@ class Page:
             across[later] = up[later] = 0.0
         texel = np.linalg.norm(across, axis=1) + np.linalg.norm(up, axis=1)
         lead = texel / np.maximum(np.linalg.norm(target - origin, axis=1), 1e-30)
-        shift = self.shifts[self.block[own]]
+        shift = self.shifts[block]
         spot = row + shift[:, 1], column + shift[:, 0]
         paths.used[spot], paths.left[spot], paths.turn[spot] = True, left, faces.turn[face]
         paths.target[spot], paths.origin[spot], paths.across[spot], paths.up[spot] = target, origin, across, up
@@ -277,6 +265,30 @@ class Page:
         # lamps that only the last mirror shows are met on the way: the material does not add them
         lead[later] = FROM_LAST_MIRROR
         paths.lead[spot] = SEEN_LEAD if seen else lead
+
+
+    def _texels(self, drawn: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the pixels (n,) that faces (h * w,) are seen in, and the block (n,) of each. Where a group has several
+        blocks, each also has the pixels beside it, so that light is interpolated and denoised across its border."""
+        at = np.flatnonzero(drawn >= 0)
+        block = self.block[drawn[at]]
+        if len(np.unique(self.group)) == len(self.blocks):
+            return at, block
+        width, height = self.fine.resolution
+        group_of = np.zeros(len(self.blocks), dtype=np.int64)
+        group_of[self.block] = self.group
+        for _ in range(SEAM):
+            row, column = np.divmod(at, width)
+            wider = [(at, block)]
+            for down, right in STEPS:
+                inside = (0 <= row + down) & (row + down < height) & (0 <= column + right) & (column + right < width)
+                beside, own = at[inside] + down * width + right, block[inside]
+                face = drawn[beside]
+                same = (face >= 0) & (self.group[face] == group_of[own]) & (self.block[face] != own)
+                wider.append((beside[same], own[same]))
+            pairs = np.unique(np.concatenate([own * drawn.size + beside for beside, own in wider]))
+            block, at = np.divmod(pairs, drawn.size)
+        return at, block
 
 
 def _changes(pixels: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -331,17 +343,3 @@ class PointBlock(Block):
         """Return the column and row (n, 2) of each point in the picture."""
         row, column = np.divmod(np.arange(self.count), self.size[0])
         return np.stack((column, row), axis=1) + self.corner
-
-
-def _pack(blocks: list[Block]) -> np.ndarray:
-    """Stack blocks in shelves, the highest first; return the size of the whole."""
-    width = max((int(block.size[0]) for block in blocks), default=1)
-    shelf = used = height = 0
-    for block in sorted(blocks, key=lambda block: -block.size[1]):
-        if used + block.size[0] > width:
-            shelf, used = shelf + height, 0
-        if used == 0:
-            height = int(block.size[1])
-        block.corner = np.array((used, shelf))
-        used += int(block.size[0])
-    return np.array((width, max(shelf + height, 1)))

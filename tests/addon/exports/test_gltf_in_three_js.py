@@ -64,8 +64,9 @@ def by_cycles(room, pixels: np.ndarray) -> np.ndarray:
 
 
 def at_middles(room) -> np.ndarray:
-    """Return what Cycles shows of the file (height, width, 3) with the samples that three.js takes: one in the middle of
-    each pixel at twice the size."""
+    """Return what Cycles shows of the file (height, width, 3) by the samples of three.js: one in the middle of each pixel
+    at twice the size.
+    """
     rendering, scene = room("addon.rendering"), bpy.context.scene.copy()
     try:
         rendering.with_cycles(scene)

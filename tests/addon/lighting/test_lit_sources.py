@@ -46,7 +46,7 @@ def test_generated_coordinates_are_those_before_anything_deforms_what_is_reflect
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     light()
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > psnr(other, reference)
     assert (set(bpy.data.shape_keys), set(bpy.data.scenes)) == kept
 
 
@@ -57,7 +57,7 @@ def test_what_the_camera_does_not_see_as_it_is_mirrors_do(blank, room, name):
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > psnr(other, reference)
 
 
 @pytest.mark.parametrize(("link", "name", "state"), [
@@ -78,7 +78,7 @@ def test_lamps_light_what_they_are_linked_to(blank, room, link, name, state):
     reference = picture(room)
     parts.generate()
     light(32)
-    assert psnr(picture(room), reference) > 30.0
+    assert psnr(picture(room), reference) > 37.5
     assert set(bpy.data.collections) == {linked, inner} and getattr(lamp.light_linking, link) == linked
     assert not linked.objects and list(inner.objects) == [bpy.data.objects[name]]
 
@@ -108,7 +108,7 @@ def test_mirrors_in_mirrors_show_the_side_that_they_see(blank, room, turned):
     beside = np.logical_or.reduce([ended[y:y + SIZE, x:x + SIZE] for y in range(5) for x in range(5)])
     card = (np.abs(reference[..., 0] - reference[..., 2]) > 0.2) & ~beside
     lit, noise = (-10.0 * np.log10(((one - reference)[card]**2).mean()) for one in (picture(room), other))
-    assert lit > min(38.0, noise - 1.5)
+    assert lit > noise
 
 
 @pytest.mark.parametrize("bounces", [0, pytest.param(1, marks=pytest.mark.slow)])
@@ -128,7 +128,7 @@ def test_lamps_light_no_more_bounces_than_they_may(blank, room, bounces):
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > psnr(other, reference)
     assert (lamp.data.cycles.max_bounces, point.data.cycles.max_bounces) == (bounces, 7)
     assert not (lamp.hide_render or twin.hide_render or point.hide_render)
 
@@ -140,7 +140,7 @@ def test_it_is_exposed_once(blank, room):
     reference = picture(room)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > 38.0
+    assert psnr(picture(room), reference) > 46.5
 
 
 @pytest.mark.slow
@@ -158,7 +158,7 @@ def test_a_lamp_s_body_is_as_bright_as_the_mirror_shows_it(blank, room):
     assert (reference[..., 0] > 0.85).sum() > 50
     parts.generate()
     light(16)
-    assert psnr(picture(room), reference) > 40.0
+    assert psnr(picture(room), reference) > 48.0
 
 
 def test_a_world_is_mapped_no_larger_than_its_light_needs(blank, room):
@@ -184,7 +184,7 @@ def test_the_sun_of_a_picture_of_the_sky_is_found(blank, room):
     reference, other = picture(room), picture(room, seed=7)
     parts.generate()
     light(64)
-    assert psnr(picture(room), reference) > min(38.0, psnr(other, reference) - 1.5)
+    assert psnr(picture(room), reference) > psnr(other, reference)
     assert set(bpy.data.worlds) == {world} and blank.scene.world == world
 
 
@@ -257,7 +257,7 @@ def test_it_is_right_from_elsewhere_too(blank, room):
     parts.generate()
     # it is still shown, and has to be made again
     assert {slot.material for slot in result.material_slots} == {shown} and outdated(room, result)
-    assert psnr(picture(room), reference) > 30.0
+    assert psnr(picture(room), reference) > 42.0
     # but not where what is reflected changes
     bpy.data.objects["Box"].location.x += 0.2
     blank.view_layer.update()
