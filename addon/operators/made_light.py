@@ -54,10 +54,10 @@ DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each 
 DENOISED = 2
 LEAST = 4               # samples of a texel that the denoiser needs
 RIM = 4                 # texels around faces that go on as the faces do: filters and smaller copies mix them in
-# Texels around faces that are rendered too, for the denoiser, from MANY samples for each texel on; with fewer, RIM. In
-# the pond at 64 samples a picture has 42.44 dB with 4 of them, 42.39 with 2, 42.22 with 1 and 39.70 without;
-# with 4, half of all texels are such. A floor in a soft shadow at 16 samples has 42.7 dB with 4 and 40.6 with 2.
-RENDERED_RIM, MANY = 2, 8
+# Texels around faces that are rendered too, for the denoiser. In the pond at 64 samples a picture has 42.44 dB with 4 of
+# them, 42.39 with 2, 42.22 with 1 and 39.70 without; a floor in a soft shadow at 16 samples 42.7 dB with 4, 40.6 with 2
+# and 32.3 if nothing is denoised. With 4, half of all texels are such.
+RENDERED_RIM = 2
 SMALL = 0.05            # of a disc's size
 MATTE = 8               # samples of light for each of what lamps add to the mirror itself, which is dark beside it
 NOT_LIT = {"EMISSION", "BSDF_TRANSPARENT", "HOLDOUT"}  # shaders that lamps change nothing of
@@ -134,8 +134,7 @@ def _rendered(context: bpy.types.Context, paths: LightPaths, points: np.ndarray,
         for chosen, per_texel, clean in ((points, samples, False), (~points, _samples_per_texel(samples, dense), True)):
             part_of_it = replace(paths, used=paths.used & chosen)
             if part_of_it.used.any():
-                rim = RENDERED_RIM if per_texel >= MANY else RIM
-                steps = render_paths(scene, part_of_it.grown(rim) if clean else part_of_it, per_texel, clean)
+                steps = render_paths(scene, part_of_it.grown(RENDERED_RIM) if clean else part_of_it, per_texel, clean)
                 light += (yield from shown_while(steps, 0.1, RENDERING))[..., :3]
     return light
 

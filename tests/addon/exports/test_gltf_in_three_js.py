@@ -64,7 +64,7 @@ def by_cycles(room, pixels: np.ndarray) -> np.ndarray:
 
 
 def at_middles(room) -> np.ndarray:
-    """Return what Cycles shows of the file (height, width, 3) by the samples of three.js: one in the middle of each pixel
+    """Return what Cycles shows of the file (height, width, 3) by three.js' samples: one in the middle of each pixel
     at twice the size.
     """
     rendering, scene = room("addon.rendering"), bpy.context.scene.copy()
