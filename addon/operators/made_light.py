@@ -54,8 +54,8 @@ DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each 
 DENOISED = 2
 LEAST = 4               # samples of a texel that the denoiser needs
 RIM = 4                 # texels around faces that go on as the faces do: filters and smaller copies mix them in
-# Texels around faces that are rendered too, for the denoiser. In the pond at 64 samples a picture has 42.44 dB with 4 of
-# them, 42.39 with 2, 42.22 with 1 and 39.70 without; a floor in a soft shadow at 16 samples 42.7 dB with 4, 40.6 with 2
+# Texels around faces that are rendered too, for the denoiser. In the pond at 64 samples a picture has 42.44 dB with 4,
+# 42.39 with 2, 42.22 with 1 and 39.70 without any; a floor in a soft shadow at 16 samples 42.7 dB with 4, 40.6 with 2,
 # and 32.3 if nothing is denoised. With 4, half of all texels are such.
 RENDERED_RIM = 2
 SMALL = 0.05            # of a disc's size
