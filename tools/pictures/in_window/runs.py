@@ -64,7 +64,7 @@ def after_run():
         yield from hands.settled(name)
         screen.press("ESC")
         yield 0.5
-    joined("after_run", [part("generated", 646, 410, 338, 290), part("lit", 646, 410, 338, 126)])
+    joined("after_run", [part("generated", 646, 410, 338, 400), part("lit", 646, 410, 338, 126)])
 
 
 def bake():
