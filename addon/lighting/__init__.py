@@ -5,6 +5,7 @@ from .kept_light import KeptLight
 from .known_texels import remember
 from .light_material import alone, new_image, new_material, show_as_cut_out
 from .light_paths import LightPaths, grown
+from .lit_faces import Placed
 from .lit_results import (
     can_be_lit,
     forget_light,
@@ -21,7 +22,7 @@ from .mattes import lacks_mattes, update_mattes
 from .needs_light import is_plain, needs_light
 from .path_sheet import path_scene, render_paths
 from .preview import forget_previews, show_previews, shows_preview
-from .unwrapping import FROM_MIRROR, Placed, Unwrapped, unwrap
+from .unwrapping import FROM_MIRROR, Unwrapped, unwrap
 from .world_faces import WORLD
 from .world_material import show_world
 

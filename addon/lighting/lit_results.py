@@ -28,9 +28,10 @@ from ..writing import (
 )
 from .kept_light import steady_turn
 from .known_texels import found_again
+from .lit_faces import Placed, faces_of
 from .needs_light import needs_light
 from .preview import MARK, forget_previews
-from .unwrapping import Placed, Unwrapped, faces_of, unwrap
+from .unwrapping import Unwrapped, unwrap
 from .world_faces import add_world_faces, edges_off_world
 
 COLOUR = "Reflection Light Colour"

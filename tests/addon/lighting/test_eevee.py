@@ -7,13 +7,14 @@ import eevee
 import numpy as np
 import parts
 import pytest
+from every_engine import skip_or_fail
 from lamp_scenes import principled, scene_of
 
 
 @pytest.fixture(scope="module", autouse=True)
 def rendering():
     if not eevee.is_there():
-        pytest.skip("EEVEE cannot render here: it needs OpenGL.")
+        skip_or_fail("EEVEE cannot render here: it needs OpenGL.")
 
 
 def lit_ball(context: bpy.types.Context, shining: bool) -> bpy.types.Object:

@@ -6,6 +6,7 @@ import eevee
 import numpy as np
 import parts
 import pytest
+from every_engine import skip_or_fail
 from lamp_scenes import principled, scene_of
 from render_passes import rendered_passes
 
@@ -122,7 +123,7 @@ def test_points_have_mattes(box, tmp_path):
 @pytest.mark.slow
 def test_eevee_puts_them_out_as_well(box, tmp_path):
     if not eevee.is_there():
-        pytest.skip("EEVEE cannot render here: it needs OpenGL.")
+        skip_or_fail("EEVEE cannot render here: it needs OpenGL.")
     right = truth(tmp_path / "truth.exr", box)
     box.reflection_mesh.matte = True
     parts.generate(preview=True)
