@@ -1,4 +1,4 @@
-"""How the house stands: one direction of flow, floors with one door each, no crooked rooms. Only the source is read."""
+"""Imports go one way, packages have one public interface, functions are short. Only the source is read."""
 import ast
 import re
 from collections import defaultdict
@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[3]
-FILES = sorted(path for house in ("core", "addon") for path in (ROOT / house).rglob("*.py"))
+FILES = sorted(path for root in ("core", "addon") for path in (ROOT / root).rglob("*.py"))
 LINES, PARAMETERS = 50, 6
-BY_NAME = (("addon", "operators"), ("addon", "writing", "nodes"))  # floors whose rooms are asked for by their names too
-ON_THE_DOOR = ("caustics", "rivals")  # floors that stand on the house itself
+BY_NAME = (("addon", "operators"), ("addon", "writing", "nodes"))  # packages whose modules others import too
+ON_TOP = ("caustics", "rivals")  # packages that import `core` itself
 
 
 @cache
@@ -34,22 +34,23 @@ def imported(path: Path) -> list[tuple[str, ...]]:
 
 
 @cache
-def floor(parts: tuple[str, ...]) -> str:
-    """The package of a house that a module lies in; of a room beside the house's door the room itself, and of the door
-    nothing."""
+def package_of(parts: tuple[str, ...]) -> str:
+    """Return the package of `core` or `addon` in which a module lies: the module itself if it lies in none, and an empty
+    string for `__init__`.
+    """
     if len(parts) < 2 or parts[1] == "__init__.py":
         return ""
     return parts[1] if (ROOT / parts[0] / parts[1]).is_dir() else parts[1].removesuffix(".py")
 
 
-def floors_under(house: str) -> dict[str, set[str]]:
-    """What each floor of a house, and each room beside its door, imports of the others."""
+def imports_of_packages(root: str) -> dict[str, set[str]]:
+    """Return what each package of `core` or `addon` imports of the others there."""
     under = defaultdict(set)
     for path in FILES:
         own = path.relative_to(ROOT).parts
-        if own[0] == house and floor(own):
-            under[floor(own)] |= {floor(module) for module in imported(path)
-                                  if module[0] == house and floor(module) not in ("", floor(own))}
+        if own[0] == root and package_of(own):
+            under[package_of(own)] |= {package_of(module) for module in imported(path)
+                                  if module[0] == root and package_of(module) not in ("", package_of(own))}
     return under
 
 
@@ -60,46 +61,46 @@ def test_the_core_knows_of_no_blender():
                 if module[0] in ("bpy", "mathutils", "addon")]
 
 
-@pytest.mark.parametrize("house", ["core", "addon"])
-def test_no_arrow_runs_back_up(house):
-    left = floors_under(house)
+@pytest.mark.parametrize("root", ["core", "addon"])
+def test_imports_go_one_way(root):
+    left = imports_of_packages(root)
     while ready := [name for name, below in left.items() if not below & left.keys()]:
         for name in ready:
             del left[name]
     assert not left
 
 
-def test_floors_are_entered_by_their_door():
+def test_packages_are_imported_by_their_public_interface():
     beside = []
     for path in FILES:
         own = path.relative_to(ROOT).parts
         for module in imported(path):
-            # what has rooms itself is a floor of its own
+            # what has modules itself is a package of its own
             if module[0] in ("core", "addon") and len(module) > 2 and not ROOT.joinpath(*module).is_dir() \
-                    and (module[0] != own[0] or floor(module) != floor(own)) and module[:-1] not in BY_NAME:
+                    and (module[0] != own[0] or package_of(module) != package_of(own)) and module[:-1] not in BY_NAME:
                 beside.append(("/".join(own), ".".join(module)))
     assert not beside
 
 
-def test_the_map_of_the_house_is_true():
-    """CONTRIBUTING.md names every floor of both houses, and what each of the core stands on, at last."""
+def test_the_map_is_true():
+    """CONTRIBUTING.md names every package, and what each of the core imports, directly or by others."""
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:2] == "| "]
-    named = {house: {name for row in rows if len(row) == columns for name in re.findall(r"`(\w+)`", row[0])}
-             for house, columns in (("core", 3), ("addon", 2))}
-    for house, names in named.items():
-        assert names == {path.name for path in (ROOT / house).iterdir() if (path / "__init__.py").exists()}
-    stands_on = {name: set(re.findall(r"`(\w+)`", row[2])) for row in rows if len(row) == 3
+    named = {root: {name for row in rows if len(row) == columns for name in re.findall(r"`(\w+)`", row[0])}
+             for root, columns in (("core", 3), ("addon", 2))}
+    for root, names in named.items():
+        assert names == {path.name for path in (ROOT / root).iterdir() if (path / "__init__.py").exists()}
+    imports = {name: set(re.findall(r"`(\w+)`", row[2])) for row in rows if len(row) == 3
                  for name in re.findall(r"`(\w+)`", row[0])}
-    under = floors_under("core")
-    for name, below in stands_on.items():
-        while wider := {lower for floor_ in below for lower in stands_on[floor_]} - below:
+    found = imports_of_packages("core")
+    for name, below in imports.items():
+        while wider := {lower for one in below for lower in imports[one]} - below:
             below |= wider
-        if name not in ON_THE_DOOR:
-            assert under[name] <= below, name
+        if name not in ON_TOP:
+            assert found[name] <= below, name
 
 
-def test_no_function_is_long_or_asks_for_much():
+def test_functions_are_short_and_have_few_parameters():
     found = []
     for path in FILES:
         for node in ast.walk(tree_of(path)):
