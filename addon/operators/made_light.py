@@ -82,8 +82,8 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     yield 0.08, "Reading the reflection"
     kept = KeptLight.found([] if fog else _earlier_images(context, lit, view, samples), paths)
     points = unwrapped.of_points
-    rendered = yield from _rendered(context, kept.missing(paths), points, samples, dense)
-    image = yield from part(new_image(NAME, grown(paths.used, [kept.completed(rendered, paths)], RIM)[1], whole), 0.7, 0.05)
+    light = kept.completed((yield from _rendered(context, kept.missing(paths), points, samples, dense)), paths)
+    image = yield from part(new_image(NAME, grown(paths.used, [light], RIM)[1], whole), 0.7, 0.05)
     clear = not all(is_opaque(one) for result in lit for one in _mirror_materials(result))
     export_image = bpy.data.images.new(f"{NAME} Export", 1, 1, alpha=clear)
     whole.undo(bpy.data.batch_remove, [export_image])
