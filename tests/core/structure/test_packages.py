@@ -35,7 +35,7 @@ def imported(path: Path) -> list[tuple[str, ...]]:
 
 @cache
 def package_of(parts: tuple[str, ...]) -> str:
-    """Return the package of `core` or `addon` in which a module lies: itself if it lies in none, and an empty string for
+    """Return the package of `core` or `addon` in which a module lies: itself if in none, and an empty string for
     `__init__`.
     """
     if len(parts) < 2 or parts[1] == "__init__.py":
