@@ -1,10 +1,12 @@
-"""State of work in steps: whether it is at work, and whether Blender's own jobs go on between its steps."""
+"""Global state of operators that work in steps: whether one is working, is inside a step, and lets Blender handle events
+between its steps.
+"""
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-_are = False
+_between_events = False
 _works, _steps = [False], [0]  # True if an operator of the window is working; number of nested steps in progress
 
 
@@ -12,7 +14,7 @@ def between_events() -> bool:
     """Return True if the current step is one of many between which Blender handles events. Then a render may run in a
     thread of its own, and waiting for it need not block the window.
     """
-    return _are
+    return _between_events
 
 
 def work_waits() -> bool:
@@ -28,11 +30,11 @@ def works(goes_on: bool) -> None:
 @contextmanager
 def steps_taken(apart: bool) -> Iterator[None]:
     """Take steps inside the block between events (`apart`), or all at once."""
-    global _are
-    before, _are = _are, apart
+    global _between_events
+    before, _between_events = _between_events, apart
     _steps[0] += 1
     try:
         yield
     finally:
-        _are = before
+        _between_events = before
         _steps[0] -= 1

@@ -1,4 +1,8 @@
-"""Objects that play baked frames with what every Blender has: a Mesh Sequence Cache, nodes, a sequence of pictures."""
+"""Make, update and stop objects that play baked frames without the extension.
+
+They use what every Blender has: a Mesh Sequence Cache modifier, Geometry Nodes for points, and a material whose picture of
+light is an image sequence.
+"""
 from __future__ import annotations
 
 import os

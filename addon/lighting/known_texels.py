@@ -1,7 +1,7 @@
-"""Texels of light found again by the points that they show, for a reflection that was generated for another view.
+"""Texels of a rendered picture of light, found again for a reflection that was generated for another view.
 
-The light of a source point is the same from everywhere, but for gloss. As long as a file is open, a picture of light
-knows the source point of each texel.
+A matte source point has the same light from everywhere. So the source point of each texel is kept in memory while the
+file is open, and faces that show the same points look their light up there.
 """
 from __future__ import annotations
 

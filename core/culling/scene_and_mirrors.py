@@ -1,7 +1,8 @@
-"""All triangles that rays from a mirror may hit: the diffuse scene, and the mirrors that may be seen in a mirror.
+"""All triangles that reflected rays may hit: those of the diffuse scene (everything that is not a mirror), and those of
+mirrors that may be seen in a mirror; with queries for cameras and for rays.
 
 A mirror occludes objects behind it, in its own reflection and in that of other mirrors. With a second bounce it also
-reflects. Convex mirrors never see themselves: each triangle lies below the planes of all others.
+reflects. From outside a convex mirror never sees itself: each triangle lies below the planes of all others.
 """
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Probes: a few rays traced from the eye, to detect if whole regions of the mirror are missing from the result.
 
-They are independent of the method: they use only the meshes and the law of reflection, neither cameras nor its results
-on visibility.
+They check the method independently: they use the meshes and the law of reflection, but no three-ray cameras and no
+result of the method's visibility tests.
 """
 from __future__ import annotations
 

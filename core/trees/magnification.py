@@ -1,9 +1,11 @@
-"""Upper bound on a camera's magnification of small objects, from the camera's own rays.
+"""Upper bound on the size in pixels of a small object's image, from a camera's own rays: what is smaller than a bound
+need not be cut exactly.
 
-At the distance s a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of it moves by
-A(s) = A0 + s A1 across the rays, both constant in a camera, so that a thing of size r has an image of at most
-2 r / sigma(s) pixels, with sigma the least singular value of A. Over an interval of s it falls by at most |A1| times
-the interval; in a cone of half angle t, where rays lean against the axis, by tan(t) times the part of A along the axis.
+At the parameter s of the rays a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of
+it moves by A(s) = A0 + s A1 across the rays, both constant in a camera, so that a sphere of radius r has an image of at
+most 2 r / sigma(s) pixels, with sigma the least singular value of A. Over an interval of s, sigma decreases by at most
+|A1| times the interval; in a cone of half angle t, where rays lean against the axis, by tan(t) times the part of A along
+the axis.
 """
 from __future__ import annotations
 
