@@ -1,7 +1,7 @@
 """Make, update and stop objects that play baked frames without the extension.
 
-They use what every Blender has: a Mesh Sequence Cache modifier, Geometry Nodes for points, and a material whose picture of
-light is an image sequence.
+They use what every Blender has: a Mesh Sequence Cache modifier, Geometry Nodes for points, and a material that shows
+light as an image sequence.
 """
 from __future__ import annotations
 

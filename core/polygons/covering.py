@@ -1,9 +1,9 @@
 """Conservative overlap and occlusion tests of pairs of a camera and a triangle, by bounds, before exact clipping.
 
-In a camera the image of a triangle's side is a quadratic curve. A bound on its quadratic term limits where the side may
-lie; pairs that do not overlap even then are dropped. Triangles that mirrors hide from the whole of a camera are dropped too. A camera that sees a mirror, and none
-of its outlines, sees only mirrors: it hides everything farther than all of them. Everything farther than one mirror
-triangle that fills the camera is hidden as well.
+In a camera the image of a triangle's side is a quadratic curve. A bound on its quadratic term limits where the side
+may lie; pairs that do not overlap even then are dropped. Triangles that mirrors hide from the whole of a camera are
+dropped too. A camera that sees a mirror, and none of its outlines, sees only mirrors: it hides everything farther
+than all of them. Everything farther than one mirror triangle that fills the camera is hidden as well.
 """
 from __future__ import annotations
 

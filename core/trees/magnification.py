@@ -4,8 +4,8 @@ need not be cut exactly.
 At the parameter s of the rays a camera's triangle has moved to corners V_i + s R_i. Per pixel of the picture a point of
 it moves by A(s) = A0 + s A1 across the rays, both constant in a camera, so that a sphere of radius r has an image of at
 most 2 r / sigma(s) pixels, with sigma the least singular value of A. Over an interval of s, sigma decreases by at most
-|A1| times the interval; in a cone of half angle t, where rays lean against the axis, by tan(t) times the part of A along
-the axis.
+|A1| times the interval; in a cone of half angle t, where rays lean against the axis, by tan(t) times the part of A
+along the axis.
 """
 from __future__ import annotations
 
