@@ -1,5 +1,5 @@
-"""Global state of operators that work in steps: whether one is working, whether it is inside a step, and whether Blender
-handles events between its steps.
+"""Global state of operators that work in steps: whether one is working, whether it is inside a step, and whether
+Blender handles events between its steps.
 """
 from __future__ import annotations
 
