@@ -20,6 +20,15 @@ def principled(name: str, colour=(0.8, 0.8, 0.8), **values) -> bpy.types.Materia
     return made
 
 
+def tinted(name: str, colour: tuple[float, float, float]) -> bpy.types.Material:
+    """A material that lets light through, and colours it."""
+    made = parts.material(name, "PRINCIPLED", 1.0, 0.0)
+    clear = made.node_tree.nodes.new("ShaderNodeBsdfTransparent")
+    clear.inputs["Color"].default_value = (*colour, 1.0)
+    link(made.node_tree, clear.outputs[0], made.node_tree.get_output_node("ALL").inputs["Surface"])
+    return made
+
+
 def shader_of(material: bpy.types.Material) -> bpy.types.Node:
     return next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
 

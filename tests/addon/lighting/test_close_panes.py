@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, psnr, scene_of
+from lamp_scenes import picture, psnr, scene_of, tinted
 
 
 @pytest.mark.slow
@@ -13,13 +13,7 @@ def test_behind_a_pane_the_sky_is_behind_what_the_mirror_shows(blank, room, kind
     scene_of(blank)
     blank.scene.camera.data.type, blank.scene.camera.data.ortho_scale = kind, 4.0
     pane = parts.add("plane", "Pane", size=3.0, location=(0.0, 0.996, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
-    tinted = bpy.data.materials.new("Tinted")
-    tinted.use_nodes = True
-    tree = tinted.node_tree
-    clear = tree.nodes.new("ShaderNodeBsdfTransparent")
-    clear.inputs["Color"].default_value = (0.9, 0.6, 0.5, 1.0)
-    link(tree, clear.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
-    pane.data.materials.append(tinted)
+    pane.data.materials.append(tinted("Tinted", (0.9, 0.6, 0.5)))
     parts.select(pane, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     blank.view_layer.update()
     reference, other = picture(room), picture(room, seed=7)

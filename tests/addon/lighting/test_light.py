@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import parts
 import pytest
-from lamp_scenes import link, picture, principled, psnr, scene_of
+from lamp_scenes import picture, principled, psnr, scene_of, tinted
 
 SOURCES = ("Generated", "Object", "Normal", "UV", "Reflection", "Bump", "Normal map", "Random", "Instances",
            "Attribute", "Gloss", "Glass", "Alpha", "Backfacing", "Light path")
@@ -82,13 +82,8 @@ def test_what_is_transparent_before_the_mirror_is_seen_once(blank, room, kind):
     """A pane between the eye and one half of the mirror is one of the sources too."""
     scene_of(blank)
     pane = parts.add("plane", "Pane", size=3.0, location=(-1.2, -2.5, 1.0), rotation=(np.pi / 2, 0.0, 0.0))
-    made = principled("Film", (0.2, 0.7, 0.3), Alpha=0.4)
-    if kind == "Tint":
-        tree = made.node_tree
-        tint = tree.nodes.new("ShaderNodeBsdfTransparent")
-        tint.inputs["Color"].default_value = (0.3, 0.6, 0.5, 1.0)
-        link(tree, tint.outputs[0], next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL").inputs[0])
-    pane.data.materials.append(made)
+    pane.data.materials.append(principled("Film", (0.2, 0.7, 0.3), Alpha=0.4) if kind == "Alpha"
+                               else tinted("Film", (0.3, 0.6, 0.5)))
     parts.select(pane, *(bpy.data.objects[name] for name in ("Box", "Floor", "Mirror")))
     blank.view_layer.update()
     reference, other = picture(room), picture(room, seed=7)
