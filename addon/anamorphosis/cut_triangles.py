@@ -129,8 +129,10 @@ def _within(spots: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 def _covered(pieces: PicturePieces) -> np.ndarray:
-    """Return True (k,) for pieces of one triangle that larger images cover, at the middle and near each corner. These
-    are ignored. A mirror may show a triangle in a dozen overlapping images.
+    """Return True (k,) for pieces of one triangle that larger images cover, at the middle and near each corner.
+
+    A mirror may show the triangle several times, in a dozen images that overlap. A piece is a part of the triangle as
+    one image shows it, see `PicturePieces`. The caller ignores covered pieces.
     """
     middle = pieces.weights.mean(axis=1, keepdims=True)
     spots = np.concatenate((middle, middle + INWARDS * (pieces.weights - middle)), axis=1)

@@ -122,7 +122,30 @@ def _player_path(folder: str, options: argparse.Namespace) -> str:
 
 
 def _made_side_by_side(scene: bpy.types.Scene, folder: str, options: argparse.Namespace) -> int:
-    """Bake the missing frames in several processes. Return the number of frames."""
+    """Bake the frames in `options.jobs` processes and print their progress.
+
+    Frames that exist already are kept, unless `--overwrite` was given.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its frame range is used if the options contain no frames.
+    folder : str
+        Absolute path for the files of the frames.
+    options : argparse.Namespace
+
+    Returns
+    -------
+    int
+        Number of frames that the processes have written, added up over cameras and view layers.
+
+    Raises
+    ------
+    ReflectionError
+        If a process fails, with the message of the first one that does. The others are ended; written frames stay.
+    KeyboardInterrupt
+        If a process was interrupted.
+    """
     steps = side_by_side([*options.words, "--output", folder], chosen_frames(scene, options.frames or ""), options.jobs,
                          lambda line: print(line, flush=True))
     return announced(steps, options.progress)

@@ -26,8 +26,11 @@ def text(given: str) -> str:
 
 
 class Names(argparse.Action):
-    """Collect names that are not empty. For templates of Open Job Description, which pass all options, an empty name
-    means none; the progress option must come before.
+    """Collect the names that follow an option, without empty ones.
+
+    Empty names are an error unless `--progress OPENJD` was given: templates of Open Job Description pass all options,
+    and those without a value get an empty name. Options are parsed in order, so `--progress` must stand before the
+    names.
     """
 
     def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values,

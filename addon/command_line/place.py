@@ -74,7 +74,20 @@ def layer_of(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
 
 
 def named(items, name: str, what: str, where: str):
-    """Return one of Blender's items by its name."""
+    """Return one of Blender's data-blocks or view layers by its name.
+
+    Parameters
+    ----------
+    items : bpy.types.bpy_prop_collection
+    name : str
+    what, where : str
+        Kind of item, such as "scene", and the place that was searched, such as "the file", for the error message.
+
+    Raises
+    ------
+    ReflectionError
+        If there is no item of that name.
+    """
     if name not in items:
         raise ReflectionError(f"There is no {what} '{name}' in {where}: check its name.")
     return items[name]

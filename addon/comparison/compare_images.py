@@ -69,7 +69,23 @@ def comparison_pictures(folder: str, scene: bpy.types.Scene, pictures: Pictures,
 
 
 def _maps(difference: np.ndarray, displacement: np.ndarray, coverage: np.ndarray) -> dict:
-    """Return PNG files by name."""
+    """Draw the error maps of a comparison.
+
+    Parameters
+    ----------
+    difference : (height, width) float
+        Absolute difference of the pictures in linear light, mean of the channels, from the lowest row up like all
+        three.
+    displacement : (height, width) float
+        Displacement in pixels; NaN where it was not measured.
+    coverage : (height, width) uint8
+        Kinds of pixels as indices into `KINDS`.
+
+    Returns
+    -------
+    dict of str to bytes
+        PNG files by the names "difference", "displacement" and "holes".
+    """
     return {"difference": heat_map(difference, *DIFFERENCE),
             "displacement": heat_map(displacement, *DISPLACEMENT, unit="px"),
             "holes": png_bytes(coverage[::-1], np.array(list(KINDS.values())))}

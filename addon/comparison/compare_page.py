@@ -24,7 +24,18 @@ def scene_of(name: str, report: dict, pictures: tuple[Picture, ...]) -> Scene:
 
 
 def summary(report: dict) -> tuple[str, ...]:
-    """Return the summary in sentences, the main result first."""
+    """Summarise a comparison of the reflection meshes with Cycles in sentences, the main result first.
+
+    Parameters
+    ----------
+    report : dict
+        Numbers of the comparison as `operators/compare.py` builds them and report.json holds them.
+
+    Returns
+    -------
+    tuple of str
+        Two paragraphs: quality and times, then the count of wrong pixels. Only one if no mirror pixel could be judged.
+    """
     if not report["judged_pixels"]:
         return ("The camera sees no mirror whose reflection could be judged.",)
     displacement, coverage = report["displacement_px"], report["coverage_percent"]
@@ -53,7 +64,18 @@ def summary(report: dict) -> tuple[str, ...]:
 
 
 def facts(report: dict) -> dict:
-    """Return numbers by label."""
+    """Return the rows of the table of numbers that follows the summary: text by label, in the order of display.
+
+    The rows are the objects, the displacement in pixels, the same without Cycles' rounding of normals, the percentages
+    of wrong pixels, and the errors of the picture over the mirror and over the whole picture. Errors of pictures
+    without a value are left out.
+
+    Parameters
+    ----------
+    report : dict
+        Numbers of the comparison, see `summary`. The keys `mirrors`, `diffuse`, `displacement_px`, `coverage_percent`
+        and `picture` are needed; `without_packed_normals` is optional.
+    """
     shown = {"objects": f"{', '.join(report['mirrors'])} reflect {', '.join(report['diffuse'])}",
              "displacement (px): median, 95 %, 99 %, largest": _distribution(report["displacement_px"])}
     exact = report.get("without_packed_normals")

@@ -127,7 +127,27 @@ def _face_numbers(mesh: bpy.types.Mesh, name: str, result: bpy.types.Object) -> 
 
 
 def _coded_pictures(copied: CopiedScene, codes: CodedMaterials, depth: int) -> Generator[str | None, None, tuple]:
-    """Return the first five fields of `Renders`."""
+    """Render in codes what the mirrors and the reflection meshes show in each pixel.
+
+    Parameters
+    ----------
+    copied : CopiedScene
+        Its objects keep coded materials afterwards.
+    codes : CodedMaterials
+        Materials for `copied`.
+    depth : int
+        Number of reflections that are followed.
+
+    Yields
+    ------
+    str or None
+        The name of each render before it, such as "the outline of the mirror", and None while Blender renders.
+
+    Returns
+    -------
+    tuple
+        The first five fields of `Renders`: mirror, bent, truth, shown and exact.
+    """
     truth = CodedTruth(copied, codes, depth)
     yield "the outline of the mirror"
     seen, bent = yield from truth.mirror()

@@ -102,7 +102,10 @@ class SteppedOperator:
         return isinstance(self._progress[1], Undivided)
 
     def _step_apart(self) -> set | None:
-        """Take one step between events of the window."""
+        """Take one step between events of the window.
+
+        Return None if there are more steps, else the operator's result: {"FINISHED"}, or {"CANCELLED"} after an error.
+        """
         with steps_taken(apart=True):
             return self._step()
 

@@ -25,7 +25,17 @@ _stages: list[tuple[re.Pattern, str]] = []
 
 
 def know_sentences(sentences: Iterable[str]) -> None:
-    """Register translatable sentences, which are recognised from now on."""
+    """Register the sentences that `translated` recognises, in place of those that were registered before.
+
+    A message is recognised if it is equal to a sentence except at the placeholders. It is then shown as Blender's
+    translation of that sentence, with the texts from the message in place of the placeholders.
+
+    Parameters
+    ----------
+    sentences : iterable of str
+        English sentences. A placeholder, `{}` or `{name}`, stands for any text. In phrases of up to 16 letters that
+        contain no colon and do not end with a full stop, it stands for numbers only, except `{names}`.
+    """
     _known.clear()
     # first those that say most by themselves
     for sentence in sorted(sentences, key=lambda sentence: (sentence != ALSO, -len(FIELD.sub("", sentence)))):
@@ -44,7 +54,16 @@ def one_or_more(count: int, one: str, many: str, **more) -> str:
 
 
 def tell(operator: bpy.types.Operator, kinds: set[str], sentence: str) -> None:
-    """Report a sentence in the user's language."""
+    """Translate a sentence into the language of Blender's interface and report it.
+
+    Parameters
+    ----------
+    operator : bpy.types.Operator
+    kinds : set of str
+        Types of the report as in `Operator.report`, such as {"WARNING"}.
+    sentence : str
+        English sentence. It is shown unchanged if `know_sentences` has not registered it, or it has no translation.
+    """
     operator.report(kinds, translated(sentence))
 
 

@@ -98,7 +98,11 @@ def _hashed_other(data: bpy.types.ID | None) -> bytes:
 
 
 def _hashed(obj: bpy.types.Object) -> bytes:
-    """Return a digest of the shape and the layers of an evaluated object."""
+    """Return a digest (BLAKE2b) of the mesh of an evaluated object: its topology, attributes and custom normals.
+
+    Attributes are, for example, positions, UV maps, colours and material indices. Hidden ones, such as selections, and
+    those of types that are not in `LAYOUTS` are ignored.
+    """
     mesh, told = obj.data, blake2b(digest_size=SIZE)
     told.update(np.array((len(mesh.vertices), len(mesh.polygons)), dtype=np.int64).tobytes())
     told.update(_values(mesh.polygons, "loop_start", 1, np.int32))

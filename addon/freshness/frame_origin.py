@@ -25,7 +25,19 @@ def frame_origin(context: bpy.types.Context, chosen: Participants | None, lit: b
 
 
 def frame_difference(made: dict[str, str], now: dict[str, str]) -> str:
-    """Return the difference between two of these records in a few words; "" if there is none or it is unknown."""
+    """Describe the first difference between the inputs of a frame when it was baked and its inputs now.
+
+    Parameters
+    ----------
+    made, now : dict of str to str
+        Results of `frame_origin`, at the time of the bake and now.
+
+    Returns
+    -------
+    str
+        A few English words, such as "the lamps or the world have changed". Empty if there is no difference, or if
+        `made` is empty or cannot be read.
+    """
     if not made:
         return ""
     if made.keys() != now.keys():

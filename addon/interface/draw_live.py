@@ -7,7 +7,7 @@ from ..live import present
 
 
 def draw_live(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Draw the switch and its setting."""
+    """Draw the button that starts or stops Live, and below it Seen From: the view that Live updates reflections for."""
     column = layout.column(align=True)
     if present() is None:
         column.operator("reflection_mesh.live", text="Live", icon="PLAY")

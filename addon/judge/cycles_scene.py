@@ -151,8 +151,20 @@ def _mesh(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.ty
 
 
 def _placed(copied: CopiedScene, anchor: bpy.types.Object, data, matrix, slots: list) -> bpy.types.Object:
-    """Link an object with exactly the transform `matrix`, using the parent's inverse, since location, rotation and
-    scale cannot represent shear.
+    """Create an object in the copied scene with exactly the world transform `matrix`, and return it.
+
+    The matrix is stored as the parent's inverse, since location, rotation and scale cannot represent shear.
+
+    Parameters
+    ----------
+    copied : CopiedScene
+        Its scene and its list of owned data get the object.
+    anchor : bpy.types.Object
+        Parent of the object: an empty without a transform of its own.
+    data : bpy.types.Mesh or bpy.types.Camera
+    matrix : mathutils.Matrix
+    slots : list of bpy.types.Material or None
+        Materials of the object by slot. A mesh gets at least one slot.
     """
     copy = bpy.data.objects.new("Copy", data)
     copied.owned.append(copy)

@@ -16,10 +16,22 @@ NEARLY = 0.02   # from none or all of opacity
 
 
 def new_export_image(image: bpy.types.Image, light: np.ndarray, unwrapped: Unwrapped, dense: int) -> Steps[None]:
-    """Fill an image of 8 bits with light and opacity (height, width, 4): sRGB, nothing brighter than white.
+    """Write light into an existing image in the form that exporters need: 8 bits, sRGB, clipped at white, with alpha.
 
-    Light is filtered before it is cut at white. A camera does the same, so that the outlines of lamps are as bright.
-    What is brighter than its opacity allows is made more opaque.
+    The light of faces is blurred slightly by a separable kernel of a few texels, before it is clipped. A camera's pixel
+    filter does the same, so that the outlines of lamps are equally bright. Alpha is raised where a channel exceeds it,
+    and the stored colour is not premultiplied.
+
+    Parameters
+    ----------
+    image : bpy.types.Image
+        Image of any size with 8 bits per channel. It gets the size of `light` and is packed into the file.
+    light : (height, width, 4) float32
+        Linear premultiplied RGB and alpha from the lowest row up; its size is `unwrapped.size`. It is not changed.
+    unwrapped : Unwrapped
+        Layout of the picture. Each block of its pages is filtered alone; texels of points are not filtered.
+    dense : {1, 2}
+        Number of texels along each side of a pixel. It selects the kernel.
     """
     yield 0.0, WRITING
     light = np.clip(_filtered(light, unwrapped, dense), 0.0, 1.0)

@@ -36,7 +36,23 @@ class KeptLight(NamedTuple):
 
     @classmethod
     def found(cls, images: list[bpy.types.Image], paths: LightPaths) -> KeptLight:
-        """Look for the light of `paths` in earlier pictures, all of whose light is still right but for its view."""
+        """Copy the light of texels from earlier pictures in which the same source points are found.
+
+        Parameters
+        ----------
+        images : list of bpy.types.Image
+            Earlier pictures of light; the first one that shows a point is used. The caller must make sure that nothing
+            but the view has changed since they were rendered. Pictures whose light paths are no longer in memory are
+            ignored.
+        paths : LightPaths
+            Light paths of the new picture.
+
+        Returns
+        -------
+        KeptLight
+            Light and age are 0 for texels whose point is not found, was seen in a too different direction or size, or
+            whose light has been copied too often. Both are 0 everywhere if nothing is found.
+        """
         kept = cls(np.zeros_like(paths.target), np.zeros(paths.used.shape, dtype=np.uint8))
         for image in images:
             known = known_texels(image)
@@ -141,7 +157,10 @@ def _pseudo_inverse(changes: np.ndarray) -> np.ndarray:
 
 
 def _ahead(paths: LightPaths, row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return the directions (n, 3) in which texels are looked at."""
+    """Return the unit directions (n, 3), in world space, of the light paths of texels at `row` (n,) and `column` (n,).
+
+    They point from `paths.origin`, on the mirror or at the eye, to `paths.target`, the source point.
+    """
     return unit((paths.target[row, column] - paths.origin[row, column]).T).T
 
 

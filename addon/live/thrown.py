@@ -22,8 +22,17 @@ BUDGET = 0.05   # seconds of work between two looks at what has changed
 
 
 class Group(NamedTuple):
-    """Caustics that are made together: all `pairs` (mirror, lamp) whose light falls on the same objects. `chosen` is
-    None if these objects or all mirrors are hidden.
+    """Caustics that are made together, since their light falls on the same objects.
+
+    Attributes
+    ----------
+    pairs : set of (bpy.types.Object, bpy.types.Object)
+        Mirror and lamp of each of the caustics, including those that are hidden.
+    chosen : Participants or None
+        The mirrors of `pairs` and the receivers (as `diffuse`) that are visible. None if all mirrors or all receivers
+        are hidden.
+    lamps : list of bpy.types.Object
+        The lamps of `pairs` that are visible.
     """
 
     pairs: set

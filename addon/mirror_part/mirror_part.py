@@ -66,10 +66,23 @@ def copied_shaders(mirror: Iterable[bpy.types.Material], tree: bpy.types.NodeTre
 
 
 class MirrorPart(ShaderBuilder):
-    """Builder of a mirror's shader in a tree.
+    """Builder of the shader of a lit reflection: the mirror's own shader, with emission in place of glossy reflection.
 
-    `light` is the colour of the reflected light. `lit` is that colour after the later mirrors, plus the lamps in front
-    of the source.
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+        Shader nodes are added to it.
+    light : bpy.types.NodeSocket
+        Colour of the light that the source sends to the mirror.
+    around : Surroundings
+        Other inputs.
+
+    Attributes
+    ----------
+    lit : bpy.types.NodeSocket
+        The light that reaches the mirror: `light` times the reflectance of the later mirrors, plus the light of lamps.
+        Later mirrors are those after the first one on a path from the eye with several reflections. The lamps are those
+        that a path meets between the mirror and the source, so that the mirror shows them in front of it.
     """
 
     def __init__(self, tree: bpy.types.NodeTree, light: bpy.types.NodeSocket, around: Surroundings) -> None:

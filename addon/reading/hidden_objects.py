@@ -127,7 +127,12 @@ def rendered_in(layer: bpy.types.ViewLayer) -> Callable[[bpy.types.Object], bool
 
 
 def in_viewports(context: bpy.types.Context) -> set:
-    """Return the view layer's objects that are enabled in viewports, ignoring the eye icons of their collections."""
+    """Return the view layer's objects that are enabled in viewports.
+
+    An object must not be hidden by its own eye icon or its own monitor icon (Disable in Viewports). It must also be in
+    a collection that is not excluded, and not disabled in viewports itself or through a parent. The eye icons of
+    collections and the camera icons (Disable in Renders) do not count.
+    """
     shown = rendered_collections(context.view_layer.layer_collection, "hide_viewport")
     return {obj for collection in shown for obj in collection.objects
             if not (obj.hide_viewport or obj.hide_get(view_layer=context.view_layer))}

@@ -25,7 +25,7 @@ COLUMNS = (("mean error over the area (px)", "area.mean_error_px", ".4f"),
 
 
 def page(report: Report) -> str:
-    """The whole page."""
+    """Return the report as one HTML page that contains its style sheet, plots (SVG) and pictures (base64)."""
     styles = styles_of(report)
     body = [f"<h1>{escape(report.title)}</h1>"]
     if len(report.scenes) > 1:

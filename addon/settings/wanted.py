@@ -15,13 +15,16 @@ SettingsOfMirrors = Callable[[bpy.types.Object], Settings]
 
 @dataclass(frozen=True)
 class Wanted:
-    """The settings of each mirror. Call it with a mirror, or with None for mirrors without their own settings.
+    """Settings of each mirror: those of the file, unless others are given.
+
+    Calling it with a mirror returns the mirror's `core.Settings`. Calling it with None returns those for mirrors
+    without settings of their own.
 
     Attributes
     ----------
     scene : bpy.types.Scene
     given : dict
-        Settings by name that override scene and mirrors.
+        Values by name of setting, which override those of the scene and of all mirrors.
     """
 
     scene: bpy.types.Scene

@@ -89,8 +89,22 @@ def place(obj: bpy.types.Object, origin: np.ndarray, changes: Changes) -> None:
 
 
 def put_back_materials(obj: bpy.types.Object, materials: list, changes: Changes) -> list[str]:
-    """Record the materials of a result's new mesh and replace them again as the user did. Return a list with one
-    sentence on lost changes, or an empty list.
+    """Replace materials of a result's new mesh as the user had replaced them before it was generated again.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The result. Its mesh is new and has `materials`. They are recorded in `obj.reflection_mesh.materials`, from
+        which `changes_of` tells later what the user has replaced.
+    materials : list of bpy.types.Material or None
+        The generated materials by slot.
+    changes : Changes
+        The user's changes of the earlier mesh.
+
+    Returns
+    -------
+    list of str
+        One sentence on the changes that are lost, or an empty list.
     """
     record = obj.reflection_mesh
     record.materials.clear()

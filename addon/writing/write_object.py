@@ -168,7 +168,18 @@ def result_name(mirror: bpy.types.Object, told_by: str) -> str:
 
 def new_beside(context: bpy.types.Context, name: str, other: bpy.types.Object,
                whole: AllOrNothing) -> bpy.types.Object:
-    """Create an object with an empty mesh beside another object."""
+    """Create an object with an empty mesh in the collections of another object. It stands at the world origin.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    name : str
+        Name of the object and of its mesh.
+    other : bpy.types.Object
+        The object whose collections are used, see `link_beside`.
+    whole : AllOrNothing
+        Removes the object and its mesh again if its block fails.
+    """
     mesh = bpy.data.meshes.new(name)
     whole.undo(bpy.data.meshes.remove, mesh)
     obj = bpy.data.objects.new(name, mesh)

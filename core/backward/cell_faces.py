@@ -138,9 +138,22 @@ class _Ring:
         return faces, key[open_], ends, crossed[cell[begins]]
 
     def meeting_outlines(self, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Build faces over cells of one step in which several outlines meet; return the same as `round_middles`.
+        """Build faces over cells that are one lattice step wide and that outlines cross on three or four sides.
 
-        Between two such cells the outline is a straight line from middle to middle.
+        Each run of neighbouring corners with the same key, except -1, gets a new vertex. All new vertices of a cell lie
+        at one place, its middle, which follows from `around`. Between two such cells the outline is a straight line
+        from middle to middle.
+
+        Parameters
+        ----------
+        vertices : int, number of the first new vertex
+
+        Returns
+        -------
+        faces : (m, 3) int64, vertices, counterclockwise in the picture
+        key : (m,) int64, key of what each face shows, as in `CellFaces`
+        middles : (k, 2) int64, for each new vertex the two outline vertices between which its run of corners lies
+        around : (k, 4) int64, for each new vertex an outline vertex on each side of its cell, -1 for none
         """
         change, count = self.change, len(self.cells)
         run = np.cumsum(np.roll(change, 1, axis=1), axis=1) - 1

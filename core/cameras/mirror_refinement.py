@@ -76,16 +76,20 @@ def refine_mirror(cameras: Cameras, tolerance: float, reach: float,
 
 @dataclass(frozen=True)
 class _Edges:
-    """Edges of cameras, with interpolated and true rays at one place on each.
+    """Edges of cameras, with the interpolated ray and the true ray at one place on each edge.
+
+    That place is where the edge would be split, at a share t of it from 0 to 1: see `shares_in_picture`. It is the
+    midpoint, t = 0.5, except for edges that lie mostly outside of the picture.
 
     Attributes
     ----------
     ends : (e, 2) int64, corners at the ends of the edges
-    pixels : (c, 2) float64, all corners of the cameras, in pixels
+    pixels : (c, 2) float64, all corners of the cameras in the picture, in pixels
     lengths : (e,) float64, lengths of the edges in pixels
-    given : (3, e) float64, unit rays interpolated between those of the ends
+    given : (3, e) float64, interpolated rays at t, as unit vectors in world space
     turns : (3, e) float64
-        Difference from these to the true unit rays, scaled to the midpoint; zero if it is rounding.
+        True unit rays minus `given`, estimated at the midpoint: the difference at t divided by 4 t (1 - t). It is taken
+        as a parabola along the edge that is zero at both ends. Zero if it is rounding.
     """
 
     ends: np.ndarray

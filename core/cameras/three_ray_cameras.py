@@ -47,7 +47,16 @@ class Cameras:
 
     def replaced(self, corners: np.ndarray, face: np.ndarray, places: np.ndarray, origins: np.ndarray,
                  rays: np.ndarray) -> Cameras:
-        """Return other cameras on the same corners and k new ones, with their `places`, `origins`, `rays` (3, k)."""
+        """Return m other cameras on the c corners of these and on k new corners, with the same map.
+
+        Parameters
+        ----------
+        corners : (m, 3) int64
+            The corners of each camera: numbers below c for corners of these cameras, c + i for new corner i.
+        face : (m,) int64, mirror triangle, or chain of mirror triangles, that each camera lies on
+        places, origins, rays : (3, k) float64
+            The new corners, as in the attributes of `Cameras`. After one bounce `origins` is ignored.
+        """
         places = np.concatenate((self.places, places), axis=1)
         return Cameras(corners, face, places, np.concatenate((self.rays, rays), axis=1),
                        places if self.mirror_map.bounce == 1 else np.concatenate((self.origins, origins), axis=1),

@@ -124,9 +124,15 @@ def light_at(ray_map: ReflectionMap, face: np.ndarray, uv: np.ndarray, points: n
 
 
 def _sides(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray]) -> np.ndarray:
-    """Return (b, n): 1 where light hits the front of a mirror triangle, -1 where it hits the back.
+    """Return (b, n) float64: 1 if light hits the front of a mirror triangle, -1 if it hits the back.
 
-    `came` holds the light's directions (3, n) before each of the b mirrors, the first mirror first.
+    Row i belongs to mirror i on the light's path from the lamp. The front is the side from which the corners of the
+    triangle run counterclockwise.
+
+    Parameters
+    ----------
+    face : (n,) int64, face of the `ray_map` for each ray: one mirror triangle, or a chain of b mirror triangles
+    came : list of b arrays (3, n), directions in which the light travels before it hits each mirror
     """
     sides = []
     for way in came[::-1]:
@@ -140,16 +146,21 @@ def _sides(ray_map: ReflectionMap, face: np.ndarray, came: list[np.ndarray]) -> 
 def mean_weight(ray_map: ReflectionMap, face: np.ndarray, light: Corners, lamp: Lamp) -> np.ndarray:
     """Return the mean (m,) over each face of the lamp's pattern times the shading-normal weight.
 
-    The weight is the share of the arriving light that a path tracer finds. It is 1 if the shading normals are the face
-    normals.
+    The pattern is `lamp.share`, the relative intensity towards a place on the first mirror.
 
-    The mean is weighted by the light that arrives: by solid angle from the lamp, and by the sine of its angle to the
-    mirrors. Without these sines the weight is unbounded at grazing angles.
+    The weight is the share of the arriving light that a path tracer finds: the product over all mirrors of
+    sin(leaving) / sin(arriving). These are the angles of the light's rays to the flat mirror triangle. Leaving rays
+    count before they are lifted, and as zero if they would enter the triangle. The weight is 1 if the shading normals
+    are the face normals.
+
+    The mean is taken over the face's area on the first mirror, at seven points. It is weighted by the product of
+    sin(arriving), divided by the squared distance from a lamp that is not a sun. For such a lamp and one mirror it is
+    the mean over solid angle. Without the sines the mean would be unbounded at grazing angles.
 
     Parameters
     ----------
-    face : (m,) int64, face of the map that each face is seen in
-    light : Corners, of the m faces
+    face : (m,) int64, face of `ray_map` that each lit face is seen in
+    light : Corners, of the m lit faces; only `uv` is used
     """
     counted = np.empty(len(face))
     for own in portions(len(face), AT_ONCE):

@@ -34,12 +34,16 @@ def shown_area(corners: np.ndarray, area: np.ndarray, reach: float) -> np.ndarra
 def on_faces(flux: np.ndarray, beside: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Correct the `flux` (m,) of faces for their straight sides, and return the flux (m,) that falls on each face.
 
-    Light between a straight side and the true curve goes to the face across the side. Without a face across, it stays.
+    Light between a straight side and the true curve goes to the face across the side. It stays if there is no such
+    face, or more than one. A face gives away at most the share `LOST` of its flux.
 
     Parameters
     ----------
+    flux : (m,) float64, flux within the true curves around each face
     beside : (m, 3) float64
         Flux between the straight sides 01, 12, 20 and the true curves; negative if the curve lies inside of the face.
+        NaN counts as zero. A side of two faces has two independent estimates, with opposite signs: half of their
+        difference is moved. Each is limited to the flux of the face that gives it away.
     triangles : (m, 3) int64, vertices of the faces
     """
     _, _, edge = shared_edges(triangles)

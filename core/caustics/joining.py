@@ -66,9 +66,18 @@ def _reach(parts: list[LitFaces]) -> float:
 
 
 def _arrays(lit: tuple[LitFaces, np.ndarray, ReflectionMesh, int, TriangleMesh], reach: float) -> dict:
-    """Return the arrays of a `CausticMesh` for one view and one bounce.
+    """Return the arrays of a `CausticMesh` for one view and one bounce, by the names of its attributes.
 
-    `lit` is the tuple (faces, flux, reflection, bounce, receivers) of that bounce; `reach` is the size of all faces.
+    Faces without an area or without flux are left out, and faces that are rounding: see `STRAY`.
+
+    Parameters
+    ----------
+    lit : tuple
+        (faces, flux, reflection, bounce, receivers): the m lit faces, the flux (m,) of each, the reflection in the
+        lamp's view, the number of bounces from 1 on, and the mesh that receives the light.
+    reach : float
+        Longest side of the bounding box of all lit faces, of all views and bounces, in scene units. The rounding of
+        positions in single precision is in proportion to it.
     """
     faces, flux, seen, number, receivers = lit
     light, corners = faces.light, faces.corners()

@@ -19,20 +19,33 @@ from ..support import INSIDE
 
 @dataclass(frozen=True)
 class Candidates(ColumnArrays):
-    """Pairs (p) of a camera and a triangle that may overlap: each side of the triangle is inside at some corner.
+    """Pairs (p) of a camera and a triangle that the camera may see.
+
+    The ray Q + s R of a camera's corner meets the plane of the triangle at s = a / b. Here a is minus the height of Q
+    above the plane, and b is the change of height along R. Heights are perpendicular to the plane, in units of the
+    scaled normals of `SceneFrames`. The sign g of a pair is +1 for rays that cross the plane in the direction of its
+    normal, else -1. A camera that crosses the plane may have two pairs with the triangle, one for each sign.
+
+    `overlapping` leaves out a pair if all rays of the camera pass outside of one side of the triangle.
 
     Attributes
     ----------
     cameras : Cameras
     frames : SceneFrames, of all triangles that some camera may see
-    camera : (p,) int64
+    camera : (p,) int64, index of the camera
     column : (p,) int64, the triangle's column in the frames
-    sides : (3, 3, p) float64, entry [j, i]: barycentric coordinate j, times b and the sign of b, at camera corner i
-    ahead : (3, p) float64, the distance a from corner i to the plane, positive on the side that the rays leave
-    bend : (3, 3, p) float64, entry [j, k]: what the quadratic part adds to `sides` j halfway along the camera's edge
-        from corner k to the next
-    outlines : (3, p) bool, True for sides of the triangle that may bound its visible part; False for sides outside of
-        the camera, and for sides across which a mirror continues
+    sides : (3, 3, p) float64
+        Entry [j, i]: barycentric coordinate j of the point at which the ray of camera corner i meets the plane, times
+        g b. Positive inside of the triangle's side j, which is opposite to its vertex j.
+    ahead : (3, p) float64
+        g a: the distance of the ray's origin at corner i from the plane, as a height. Positive if the origin lies on
+        the side from which the rays of the pair cross the plane.
+    bend : (3, 3, p) float64
+        Entry [j, k]: what `sides` j would be for the interpolated ray halfway along the camera's edge from corner k to
+        the next, minus the mean of its values at both corners.
+    outlines : (3, p) bool
+        True for sides of the triangle that may bound its visible part. False for sides outside of the camera, and for
+        sides across which a mirror continues.
     """
 
     cameras: Cameras

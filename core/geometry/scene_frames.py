@@ -12,7 +12,12 @@ PARALLEL = 2.0 ** -53  # sine between a ray and a plane: smaller ones are roundi
 
 
 def falling(normal: np.ndarray, rays: np.ndarray) -> np.ndarray:
-    """Return the component (n,) of rays (3, n) along normals (3, n), replaced by a small positive value if rounding."""
+    """Return the dot products (n,) of normals (3, n) and rays (3, n), never zero, so that they can be divisors.
+
+    They are positive for rays to the side to which the normal points, and negative for rays to the other side. For rays
+    that are parallel to the plane up to rounding, with |normal . ray| <= max(2**-53 |normal| |ray|, 1e-150), this
+    positive limit is returned instead.
+    """
     speed, least = dot(normal, rays), np.maximum(PARALLEL * norm(normal) * norm(rays), 1e-150)
     return np.where(np.abs(speed) > least, speed, least)
 

@@ -17,18 +17,26 @@ THIN = 5e-4  # pixels: smallest height of the parts of a split face, so that sin
 
 def with_sides_split(mesh: ReflectionMesh, surfaces: Surfaces,
                      among: np.ndarray) -> tuple[ReflectionMesh, np.ndarray]:
-    """Split faces at vertices that lie on one of their sides.
+    """Split faces at vertices of other faces of the same surface that lie on one of their sides.
 
-    Faces whose parts would be too thin stay unsplit.
+    Only borders count: sides that belong to one face, and the vertices at their ends. A vertex lies on a side if it is
+    at most 0.05 pixels beside it in the picture, and more than 0.004 pixels from both ends (`BESIDE` in `near_sides`,
+    `SAME`). Each face is split along one side only. It stays unsplit if a part would be flipped, or at most `THIN`
+    (0.0005) pixels high.
 
     Parameters
     ----------
+    mesh : ReflectionMesh, with m faces
+    surfaces : Surfaces
+        Positions of the mesh's vertices in the picture, and the test whether two faces show one continuous surface.
     among : (m,) bool, faces that may be split
 
     Returns
     -------
-    mesh : ReflectionMesh
-    waiting : (k,) bool, faces of the new mesh that may have to be split again
+    mesh : ReflectionMesh, with the same vertices and k faces
+    waiting : (k,) bool
+        Faces of the new mesh that may have to be split again: parts, and faces that a thin part left unsplit. All False
+        if no face was split.
     """
     parent, side, vertex = _on_sides(mesh, surfaces, among)
     new = np.diff(parent, prepend=-1) != 0

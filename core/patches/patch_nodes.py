@@ -43,7 +43,18 @@ class Walk:
         return member, uv, s, found & nodes.found[node]
 
     def afresh(self, points: np.ndarray) -> tuple:
-        """Find images like `find`, from starts at the sample rays that pass nearest to the `points` (3, n)."""
+        """Find the images of `points` (3, n), relative to the eye, without starts from nodes around them.
+
+        Newton's method starts for each point at the sample ray that passes nearest to it. Sample rays are the reflected
+        rays at the centres of up to 512 triangles all over the patch.
+
+        Returns
+        -------
+        member : (n,) int64, triangle of the patch in which each image lies
+        uv : (2, n) float64, place of the image in that triangle
+        s : (n,) float64, distance from the image to the point, as a multiple of the reflected ray
+        found : (n,) bool, True for points with an image; otherwise the other results belong to no image
+        """
         parts = [self.near(points[:, part]) for part in portions(max(points.shape[1], 1), FAR_AT_ONCE)]
         member, uv, s = (np.concatenate(part, axis=-1) for part in zip(*parts))
         return find(self.patch, member, uv, s, points)

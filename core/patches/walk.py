@@ -119,7 +119,23 @@ class _Walk:
 
 
 def newton(patch: Patch, member, uv, s, points, steps: int = STEPS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Make `steps` Newton steps; return uv (2, n), s (n,), and the length (n,) of the last step in (u, v)."""
+    """Make `steps` Newton steps towards the images of points P: solve Q(u, v) + s R(u, v) = P for u, v and s.
+
+    Q is the place (u, v) in the plane of a mirror triangle, inside or outside of the triangle. R is the reflected ray
+    there. It is as long as the distance from the eye to Q, or 1 in an orthographic view.
+
+    Parameters
+    ----------
+    member : (n,) int64, triangles of the patch, which the steps do not change
+    uv, s : (2, n) and (n,) float64, start
+    points : (3, n) float64, P relative to `patch.eye`
+
+    Returns
+    -------
+    uv, s : (2, n) and (n,) float64, after the steps
+    moved : (n,) float64
+        Length of the last step: the larger one of the changes of u and v, before it is limited to `LONGEST`.
+    """
     shape = columns(patch.shape, member).reshape(6, 3, -1)
     for _ in range(steps):
         place, c0, c1, ray = _moved(patch, shape, uv, s)

@@ -164,7 +164,10 @@ class ConvexPolygons(ColumnArrays):
         Returns
         -------
         owner : (n,) int64
-        weights : (3, 3, n) float64, entry [i, k]: weight i of corner k
+            The `owner` of the polygon that each triangle is a part of: a camera, or a candidate pair.
+        weights : (3, 3, n) float64
+            Barycentric coordinates of the triangles' corners in the triangle of their camera. Entry [i, k] is weight i
+            of corner k.
         """
         fan, corner, _ = self.fans(0)
         weights = self.weights[:, corner]

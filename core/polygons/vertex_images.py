@@ -19,14 +19,20 @@ NEAR_IMAGE = 3.0  # pixels: how far the straight outlines of the clip may put a 
 
 @dataclass(frozen=True)
 class VertexImages(ColumnArrays):
-    """Images, sorted by vertex.
+    """Images of source vertices in cameras, sorted by vertex, except those of `images_of_pairs`.
+
+    The image of a vertex P is the place Q on the first mirror at which the eye sees it: P = O + s R, with the origin O
+    and the direction R of the ray that leaves the last mirror. After one bounce O = Q.
 
     Attributes
     ----------
-    vertex, camera : (n,) int64
-    distance : (n,) float64, s
-    place : (3, n) float64, Q
-    pixel : (2, n) float64
+    vertex : (n,) int64, source vertex, as index into the positions for which images were computed
+    camera : (n,) int64, camera in which the image was found
+    distance : (n,) float64
+        s, a multiple of the length of the path from the eye to O. It is a length for an orthographic view, and for maps
+        with unit rays.
+    place : (3, n) float64, Q in world space
+    pixel : (2, n) float64, Q in the picture, in pixels to the right and up
     """
 
     vertex: np.ndarray
@@ -122,9 +128,15 @@ def images_of_pairs(cameras: Cameras, positions: np.ndarray, camera: np.ndarray,
 
 
 def repeated(vertex: np.ndarray, pixel: np.ndarray) -> np.ndarray:
-    """Return True for images that repeat an earlier one: those on an edge or a vertex that cameras share.
+    """Return True (n,) for images that repeat an earlier one: those on an edge or a corner that cameras share.
 
-    `vertex` (n,) of the images are sorted; `pixel` (n, 2) are their places in the picture.
+    An image repeats another one of the same vertex that is less than `SAME_IMAGE` (0.001) pixels away. Each image is
+    compared with the eight entries before it only.
+
+    Parameters
+    ----------
+    vertex : (n,) int64, source vertex of each image, sorted
+    pixel : (n, 2) float64, positions of the images in the picture
     """
     again = np.zeros(len(vertex), dtype=bool)
     for gap in range(1, 9):

@@ -52,7 +52,18 @@ def lengths(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
 
 
 def coefficients(still: np.ndarray, moving: np.ndarray) -> np.ndarray:
-    """c0 to c3 of f, (4, n)."""
+    """Return the coefficients of the cubics f(s) = c0 + c1 s + c2 s^2 + c3 s^3, as rows c0 to c3 (4, n).
+
+    f(s) = (p + s r) . ((a + s u) x (b + s v)). It is zero if the point P lies in the plane of the triangle whose
+    corners A, B, C have moved along their rays for the time s.
+
+    Parameters
+    ----------
+    still : (3, 3, n) float64
+        The vectors p = A - P, a = B - A, b = C - A at s = 0, as [vector, component, cubic], from `differences`.
+    moving : (3, 3, n) float64
+        Their velocities r, u, v: the ray of A, and the differences of the rays of B and C to it.
+    """
     return np.stack(_expanded(dot, cross, still, moving))
 
 

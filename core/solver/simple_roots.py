@@ -92,7 +92,11 @@ def simple_roots(c: np.ndarray, bounds: np.ndarray,
 
 
 def _closed_form(c: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Solve cubics `c` (4, n) in closed form.
+    """Solve cubics in closed form.
+
+    Parameters
+    ----------
+    c : (4, n) float64, rows c0 to c3 of c0 + c1 x + c2 x^2 + c3 x^3
 
     Returns
     -------

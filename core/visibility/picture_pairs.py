@@ -60,7 +60,20 @@ def pairs_in_picture(cameras: Cameras, mesh: TriangleMesh, owner: np.ndarray, ta
 
 def _meeting(cameras: Cameras, owner: np.ndarray, boxes: tuple,
              cells: list) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
-    """Yield cameras (p,) and triangles (p,) whose boxes overlap, found by the cells that they share."""
+    """Yield pairs of n cameras and m triangles whose boxes overlap, in portions of two index arrays (p,) and (p,).
+
+    Only boxes that share a cell are compared. A pair that shares several cells is yielded once.
+
+    Parameters
+    ----------
+    owner : (m,) int64
+        Mirror triangle that each triangle is a part of, -1 for none. A camera on this mirror triangle, as in
+        `cameras.face`, is not paired with it.
+    boxes : tuple of two results of `_boxes`
+        Lowest and highest corners of the boxes of the cameras, (n, 2) each, and of the triangles, (m, 2) each.
+    cells : list of two results of `_cells`
+        Numbers of cells, and the cameras whose boxes touch them, (j,) each; the same for the triangles, (k,) each.
+    """
     (cell, camera), (other_cell, column) = cells
     boxes, others = boxes
     order = in_order(camera)  # all that is said of one camera comes together

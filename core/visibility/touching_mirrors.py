@@ -33,7 +33,12 @@ def plainly_seen(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
 
 
 def _touching(met: SceneAndMirrors, candidates: Candidates) -> np.ndarray:
-    """Return indices (k,) of candidates, all of them mirror triangles, that share a corner with the camera's own."""
+    """Return the indices (k,) of candidates whose triangle shares a corner with the camera's own mirror triangle.
+
+    The triangles of all `candidates` must be mirror triangles; this is not checked. The camera's own triangle is the
+    one that its rays leave, on the last mirror. A corner is shared if all coordinates agree to within the share `ABOVE`
+    of the mirrors' size, `met.size`.
+    """
     cameras, frames = candidates.cameras, candidates.frames
     surface, face = cameras.mirror_map.last(cameras.face[candidates.camera])
     own = surface.corners(face)

@@ -43,7 +43,12 @@ class Division:
     most: int
 
     def depths(self, images: Images, node: np.ndarray) -> np.ndarray:
-        """Return the depths of nodes `node` (n,) before the eye's plane, to interpolate along edges in perspective."""
+        """Return the depths (n,) at which nodes are drawn, to interpolate along edges in perspective.
+
+        A node is a source point with its image: `node` (n,) are columns of `images`. The depth is the distance in scene
+        units from the eye's plane to the node's place on the mirror, or to its virtual image if `virtual`. It is at
+        least 1e-300, and 1 for all nodes in an orthographic view.
+        """
         if self.patch.mirror_map.orthographic:
             return np.ones(len(node))
         place = images.place[:, node] * ((1.0 + images.distance[node]) if self.virtual else 1.0)

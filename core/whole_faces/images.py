@@ -14,18 +14,26 @@ AT_ONCE = 16384  # points whose arrays fit the cache
 
 @dataclass(frozen=True)
 class Images(ColumnArrays):
-    """Points (n) and their images, one each at the most.
+    """Source points P (n) and their images on a patch, at most one image for each point.
+
+    The image is the place Q on the mirror at which the eye sees P: P = Q + s R, where R is the reflected ray at Q.
+    Coordinates are relative to `Patch.eye`: the eye, or the world origin in an orthographic view.
 
     Attributes
     ----------
-    point : (3, n) float64, from the eye
-    member : (n,) int64, the triangle of the patch
-    uv : (2, n) float64
-    distance : (n,) float64, s
-    found : (n,) bool, True if there is an image; otherwise the following entries are meaningless
-    place : (3, n) float64, from the eye
-    pixel : (2, n) float64
-    moving : (2, 3, n) float64, pixels by which the image moves where its point moves, of those asked for by `moved`
+    point : (3, n) float64, P
+    member : (n,) int64, triangle of the patch in which the image lies
+    uv : (2, n) float64, place of the image in that triangle with corners A, B, C: Q = A + u (B - A) + v (C - A)
+    distance : (n,) float64
+        s, along the ray from Q to P: a multiple of the distance from the eye to Q, or a length in orthographic views.
+    found : (n,) bool
+        True if there is an image. Otherwise the entries below are meaningless, and `member`, `uv` and `distance` are at
+        most a guess.
+    place : (3, n) float64, Q
+    pixel : (2, n) float64, Q in the picture, in pixels to the right and up
+    moving : (2, 3, n) float64
+        Derivatives of `pixel` by `point`, in pixels per scene unit, as [right or up, component, image]. NaN until
+        `moved` computes them.
     """
 
     point: np.ndarray

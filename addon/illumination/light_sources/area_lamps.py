@@ -36,7 +36,17 @@ def across_area(data: bpy.types.AreaLight, axes: np.ndarray, scale: np.ndarray,
 
 
 def rays_meet(axes: np.ndarray) -> float:
-    """Return the ratio of the area that rays meet to the area that Cycles assumes, by the lamp's unit axes (3, 3)."""
+    """Return the ratio, at least 1, of the area in which rays meet an area lamp to the area that Cycles assumes for it.
+
+    Both are equal unless the lamp is sheared. Of a rectangle, Cycles assumes the product of the side lengths. Rays meet
+    all points in the plane perpendicular to its z axis whose distances from the middle, measured along the unit axes x
+    and y by scalar products, are at most half of these lengths.
+
+    Parameters
+    ----------
+    axes : (3, 3) float64
+        Unit axes x, y and z of the lamp in world space, as columns.
+    """
     return 1.0 / abs(np.linalg.det(axes))
 
 

@@ -100,8 +100,13 @@ class Eye:
         return squared / (squared + radius**2)
 
     def _seen_area(self, places: np.ndarray) -> np.ndarray:
-        """Return the area of the mesh as seen from `places` (..., 3). A ray through a convex mesh meets two triangles
-        that face each other, or one if the mesh is open.
+        """Return the projected area (...) of the mesh `facets` as seen from `places` (..., 3), in square scene units.
+
+        That is the area of the mesh's outline in a parallel projection from the lamp towards the place. A ray through a
+        convex mesh meets two triangles that face each other, or only one if it passes an opening. The sum of all
+        projected areas counts the former part twice, and the absolute value of their signed sum counts the latter part
+        alone. So half of both together is the area. It is exact for convex meshes that are closed or have one flat
+        opening.
         """
         way = (places - self.lamp.place).reshape(-1, 3)
         way = way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)

@@ -14,8 +14,23 @@ from .thrown_light import playing_light
 
 
 def playing(context: bpy.types.Context, plan: Plan, sequences: list[Sequence]) -> tuple[list, list]:
-    """Make the results of the file play sequences, all or none of them. Return the objects, and sentences on hidden
-    ones.
+    """Make the results of the mirrors play baked sequences. If that fails for one of them, undo it for all.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    plan : Plan
+        The plan of the bake. Its settings decide which mirrors share one result.
+    sequences : list of Sequence
+        One for each camera, or a single one that follows the active camera.
+
+    Returns
+    -------
+    objects : list of bpy.types.Object
+        The results that play, one for each sequence and each mirror or group of joined mirrors.
+    sentences : list of str
+        On other results that are hidden since they would overlap these, and on what users had joined to a result, which
+        is an object of its own again.
     """
     mirrors, diffuse = candidates(context)
     joint = assembled(context, Participants(mirrors, diffuse, []), plan.settings)

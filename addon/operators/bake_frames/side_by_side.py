@@ -50,7 +50,11 @@ def side_by_side(words: list[str], frames: list[int], jobs: int,
 
 
 def words_of(settings: dict) -> list[str]:
-    """Return settings as arguments of the command line."""
+    """Return settings as command line arguments of the command `bake`.
+
+    `{"tolerance": 0.5, "hidden_faces": False, "light_samples": 8}` becomes `["--tolerance", "0.5", "--no-hidden-faces",
+    "--light", "8"]`.
+    """
     words: list[str] = []
     for name, value in settings.items():
         flag = "light" if name == "light_samples" else name.replace("_", "-")

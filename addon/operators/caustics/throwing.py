@@ -186,8 +186,17 @@ def _made(context: bpy.types.Context, name: str, pair: tuple, lit: list, scene: 
 
 
 def _plain(own: MirrorPart, mesh: core.CausticMesh, textured: list[Tint]) -> bool:
-    """Return True if the colours of all mirrors that the light has met are fully known; that of the first mirror by
-    `textured`.
+    """Return True if the colours of all mirrors that the light of some caustics has met are known.
+
+    Parameters
+    ----------
+    own : MirrorPart
+        The part of a mirror that the light from the lamp meets first.
+    mesh : core.CausticMesh
+        The caustics of that part. `mesh.met` has the mirror triangles that the light of each face meets.
+    textured : list of Tint
+        Tints of the mirror whose colour is a known texture. The colour of `own` is known if its tint is constant or
+        equal to one of these. The tints of all mirrors after the first must be constant.
     """
     known = own.tint.constant or any(own.tint.same(tint) for tint in textured)
     later = np.unique(own.colours.tint_of[mesh.met[:, 1:][mesh.met[:, 1:] >= 0]])

@@ -42,7 +42,11 @@ def is_displaced(material: bpy.types.Material | None) -> bool:
 
 
 def one_output(tree: bpy.types.NodeTree) -> bpy.types.Node | None:
-    """Keep only the shown output of a (copied) tree, make it the output for all engines, and return it."""
+    """Keep only the shown output node of a tree, make it the output for all render engines, and return it.
+
+    The shown one is that of `shown_output`. All others are deleted, so the tree should be a copy. Return None if the
+    tree has no output node.
+    """
     output = shown_output(tree)
     if output is not None:
         for other in [node for node in tree.nodes if node.type == output.type and node != output]:

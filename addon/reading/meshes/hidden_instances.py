@@ -34,7 +34,11 @@ def is_rendered(instance: bpy.types.DepsgraphObjectInstance, given: dict) -> boo
 
 
 def _given_to_nodes(obj: bpy.types.Object) -> set:
-    """Return the objects that the Geometry Nodes of an object, and of these objects, may instance one by one."""
+    """Return the objects that Geometry Nodes of `obj` may instance as single objects, not within a whole collection.
+
+    These are the objects that its nodes and modifiers refer to. If a *Collection Info* node separates children, the
+    members of collections are among them. The nodes of all these objects are searched too. The result contains `obj`.
+    """
     found: dict = {obj: None}
     left = [obj]
     while left:

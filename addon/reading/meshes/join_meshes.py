@@ -179,8 +179,27 @@ def _triangle_mesh(objects: list, positions, triangles, normals=None) -> Triangl
 
 
 def _join(placed: list[Placed], count: int) -> tuple:
-    """Return world positions and triangles; for each triangle its owner, its number within the owner and its material;
-    and the list of materials.
+    """Join all placements of some meshes into one mesh.
+
+    Parameters
+    ----------
+    placed : list of Placed
+    count : int
+        Number of objects; the owners of the placements are indices below it.
+
+    Returns
+    -------
+    positions : (n, 3) float64
+        In world space.
+    triangles : (m, 3) int64
+    owners : (m,) int32
+        Index of the object of each triangle.
+    faces : (m,) int32
+        Index of each triangle within its object; those of its further placements are counted on.
+    material : (m,) int32
+        Index into `materials` of each triangle.
+    materials : list of bpy.types.Material or None
+        Distinct materials; None for faces without one.
     """
     positions, triangles, owners, faces, material = [], [], [], [], []
     materials, index_of = [], {}

@@ -16,7 +16,17 @@ FACE_NUMBERS = ("source_object", "source_face", "mirror_face")
 
 
 def show_discs(obj: bpy.types.Object, uv_maps: list, whole: AllOrNothing) -> None:
-    """Give `obj`, whose mesh holds loose points, the modifier that draws their discs; `whole` takes it back."""
+    """Draw a disc at each point of a result with a Geometry Nodes modifier. A present one gets new nodes.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A result whose mesh has loose points.
+    uv_maps : list of str
+        Names of the UV maps that the points have as attributes. The discs get them at their corners.
+    whole : AllOrNothing
+        Removes what was added and restores the present modifier's nodes if its block fails.
+    """
     tree = bpy.data.node_groups.new(f"{obj.name} Points", "GeometryNodeTree")
     whole.undo(bpy.data.node_groups.remove, tree)
     _draw_discs(tree, uv_maps)

@@ -21,7 +21,17 @@ class Builder:
         self.tree.links.new(output, socket)
 
     def through(self, kind: str, geometry: bpy.types.NodeSocket, **inputs) -> bpy.types.NodeSocket:
-        """`geometry` through a node of one kind."""
+        """Add a node to the tree that takes and returns geometry, and return its output socket "Geometry".
+
+        Parameters
+        ----------
+        kind : str
+            Node type (`bl_idname`), such as "GeometryNodeRealizeInstances".
+        geometry : bpy.types.NodeSocket
+            Socket that is linked to the node's input "Geometry".
+        **inputs
+            Values of other input sockets, by the socket's name.
+        """
         node = self.add(kind)
         for name, value in inputs.items():
             node.inputs[name].default_value = value

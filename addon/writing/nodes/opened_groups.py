@@ -55,7 +55,12 @@ def _hand_on(tree: bpy.types.NodeTree, given: bpy.types.NodeSocket | None, targe
 
 
 def _as(given: bpy.types.NodeSocket, target: bpy.types.NodeSocket):
-    """Return the value of a socket as another one takes it: a number for a colour, or a colour for a number."""
+    """Return the value of the socket `given`, converted to the type of the socket `target`.
+
+    A value of the same type or with the same number of components stays as it is. A vector or colour becomes a number
+    by the mean of its first three components. A number becomes a vector or colour with three equal components. From a
+    colour to a vector alpha is dropped; in the other direction, and for numbers, alpha is 1.
+    """
     value = given.default_value
     if given.type == target.type or (hasattr(value, "__len__") and hasattr(target.default_value, "__len__")
                                      and len(value) == len(target.default_value)):
