@@ -51,21 +51,26 @@ def _hand_on(tree: bpy.types.NodeTree, given: bpy.types.NodeSocket | None, targe
     if given.is_linked:
         tree.links.new(given.links[0].from_socket, target)
     elif hasattr(given, "default_value") and hasattr(target, "default_value"):
-        target.default_value = _as(given, target)
+        value, own = given.default_value, target.default_value
+        if not hasattr(value, "__len__") and not hasattr(own, "__len__"):
+            target.default_value = type(own)(value)
+        elif given.type == target.type:
+            target.default_value = value
+        else:
+            # a link lets Blender convert the value: a colour becomes its luminance, a vector its mean
+            tree.links.new(_constant(tree, given), target)
 
 
-def _as(given: bpy.types.NodeSocket, target: bpy.types.NodeSocket):
-    """Return the value of the socket `given`, converted to the type of the socket `target`.
-
-    A value of the same type or with the same number of components stays as it is. A vector or colour becomes a number
-    by the mean of its first three components. A number becomes a vector or colour with three equal components. From a
-    colour to a vector alpha is dropped; in the other direction, and for numbers, alpha is 1.
-    """
-    value = given.default_value
-    if given.type == target.type or (hasattr(value, "__len__") and hasattr(target.default_value, "__len__")
-                                     and len(value) == len(target.default_value)):
-        return value
-    numbers = list(value)[:3] if hasattr(value, "__len__") else [float(value)] * 3
-    if not hasattr(target.default_value, "__len__"):
-        return type(target.default_value)(sum(numbers) / 3.0)
-    return (numbers + [1.0])[:len(target.default_value)]
+def _constant(tree: bpy.types.NodeTree, given: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """Add a node with the value of the socket `given`, a number, a colour or a vector; return its output."""
+    if given.type == "RGBA":
+        node = tree.nodes.new("ShaderNodeRGB")
+        node.outputs[0].default_value = given.default_value
+    elif hasattr(given.default_value, "__len__"):
+        node = tree.nodes.new("ShaderNodeCombineXYZ")
+        for socket, component in zip(node.inputs, given.default_value):
+            socket.default_value = component
+    else:
+        node = tree.nodes.new("ShaderNodeValue")
+        node.outputs[0].default_value = float(given.default_value)
+    return node.outputs[0]
