@@ -19,7 +19,7 @@ from .lit_results import (
 )
 from .lit_results import record_of as light_record
 from .mattes import lacks_mattes, update_mattes
-from .needs_light import is_plain, needs_light
+from .needs_light import is_plain, needs_light, only_emits
 from .path_sheet import path_scene, render_paths
 from .preview import forget_previews, show_previews, shows_preview
 from .unwrapping import FROM_MIRROR, Unwrapped, unwrap
@@ -29,5 +29,6 @@ from .world_material import show_world
 __all__ = ["FROM_MIRROR", "FurtherMirrors", "KeptLight", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone",
            "can_be_lit", "forget_light", "forget_previews", "grown", "is_cut_out", "is_lit", "is_plain", "keep_light",
            "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image",
-           "new_material", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out", "show_light",
-           "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes", "write_colours"]
+           "new_material", "only_emits", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out",
+           "show_light", "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes",
+           "write_colours"]

@@ -20,11 +20,18 @@ PLAIN = {"Metallic": 1.0, "Roughness": 0.0, "Alpha": 1.0, "Transmission Weight":
 def needs_light(result: bpy.types.Object) -> bool:
     """Return True if a result looks different from its mirror without computed light."""
     parts = mirrors_of(result)
-    if not parts or not all(map(emits_alike, _shown(result))):
+    if not parts or not only_emits(result):
         return True
     mirrors = [material for part in parts for material in filter(is_mirror, all_materials_of(part))]
     # fog is looked for last: objects are many
     return not mirrors or not all(map(is_plain, mirrors)) or any(map(has_fog, result.users_scene))
+
+
+def only_emits(result: bpy.types.Object) -> bool:
+    """Return True if all source materials of a result emit the same light in all directions: without fog, a render of
+    their light has no noise.
+    """
+    return all(map(emits_alike, _shown(result)))
 
 
 def is_plain(material: bpy.types.Material) -> bool:
