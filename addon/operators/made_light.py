@@ -53,7 +53,7 @@ DENSE, FEWEST = 2, 16   # texels along a pixel's side, and the samples for each 
 # Several texels of a pixel are denoised by all of its samples, so that with a half of them the room, the bathroom and
 # the pond come out at most 0.15 dB farther from Cycles at 64 samples, and 0.02 dB at 128.
 DENOISED = 2
-EMITTED = 8             # samples of a texel that shows light without noise, for patterns finer than it
+EMITTED = 8             # samples of a texel that shows light without noise; the denoiser smooths what is finer than it
 LEAST = 4               # samples of a texel that the denoiser needs
 RIM = 4                 # texels around faces that go on as the faces do: filters and smaller copies mix them in
 # Texels around faces that are rendered too, for the denoiser. In the pond at 64 samples a picture has 42.44 dB with 4,
@@ -128,14 +128,14 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
 
 def _rendered(context: bpy.types.Context, lit: list, paths: LightPaths, points: np.ndarray, samples: int, dense: int
               ) -> Steps[np.ndarray]:
-    """Render the light (h, w, 3) of paths. It is not denoised for texels of `points` (h, w), and where it has no noise.
-    """
+    """Render the light (h, w, 3) of paths; that of texels of `points` (h, w) is not denoised."""
     light = np.zeros_like(paths.target)
-    noisy = has_fog(context.scene) or not all(map(only_emits, lit))
     # each point has one texel, each pixel of faces has several
-    of_faces = _samples_per_texel(samples, dense) if noisy else min(samples, EMITTED)
+    of_faces = _samples_per_texel(samples, dense)
+    if all(map(only_emits, lit)) and not has_fog(context.scene):
+        of_faces = min(of_faces, EMITTED)
     with path_scene(context) as scene:
-        for chosen, per_texel, clean in ((points, samples, False), (~points, of_faces, noisy)):
+        for chosen, per_texel, clean in ((points, samples, False), (~points, of_faces, True)):
             part_of_it = replace(paths, used=paths.used & chosen)
             if part_of_it.used.any():
                 steps = render_paths(scene, part_of_it.grown(RENDERED_RIM) if clean else part_of_it, per_texel, clean)
