@@ -1,5 +1,5 @@
 """Light on reflections: Cycles shades what they show, along the paths on which their mirrors see it."""
-from .export_image import is_cut_out, new_export_image, straight
+from .export_image import fill_export_image, is_cut_out, straight
 from .further_mirrors import FurtherMirrors
 from .kept_light import KeptLight
 from .known_texels import remember
@@ -28,7 +28,7 @@ from .world_material import show_world
 
 __all__ = ["FROM_MIRROR", "FurtherMirrors", "KeptLight", "LightPaths", "Placed", "Unwrapped", "WORLD", "alone",
            "can_be_lit", "forget_light", "forget_previews", "grown", "is_cut_out", "is_lit", "is_plain", "keep_light",
-           "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "new_export_image", "new_image",
+           "lacks_mattes", "lay_out", "light_record", "light_sentence", "needs_light", "fill_export_image", "new_image",
            "new_material", "only_emits", "path_scene", "prepared", "remember", "render_paths", "show_as_cut_out",
            "show_light", "show_previews", "show_world", "shows_preview", "straight", "unwrap", "update_mattes",
            "write_colours"]

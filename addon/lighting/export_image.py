@@ -15,7 +15,7 @@ LEAST = 1e-6    # opacity of what has a colour
 NEARLY = 0.02   # from none or all of opacity
 
 
-def new_export_image(image: bpy.types.Image, light: np.ndarray, unwrapped: Unwrapped, dense: int) -> Steps[None]:
+def fill_export_image(image: bpy.types.Image, light: np.ndarray, unwrapped: Unwrapped, dense: int) -> Steps[None]:
     """Write light into an existing image in the form that exporters need: 8 bits, sRGB, clipped at white, with alpha.
 
     The light of faces is blurred slightly by a separable kernel of a few texels, before it is clipped. A camera's pixel

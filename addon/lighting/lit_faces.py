@@ -65,9 +65,16 @@ class Faces:
 
 
 class Placed(NamedTuple):
-    """A reflection's mesh, the matrix (4, 4) that places it where it was generated, whether faces that others hide need
-    light of their own, the number of its mirror (copies of a reflection have the same place in the picture), and the
-    turn that each of its sources allows, as of `LightPaths`."""
+    """A reflection that is to be lit.
+
+    Attributes
+    ----------
+    mesh : bpy.types.Mesh
+    matrix : (4, 4) float64, places the mesh where it was generated
+    layered : bool, True if faces that others hide need light of their own
+    mirror : int, the same for copies of one reflection, which share their place in the picture of light
+    turns : for each source, the angle in radians by which it may be seen from elsewhere and look the same
+    """
 
     mesh: bpy.types.Mesh
     matrix: np.ndarray

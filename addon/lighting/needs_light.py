@@ -28,8 +28,8 @@ def needs_light(result: bpy.types.Object) -> bool:
 
 
 def only_emits(result: bpy.types.Object) -> bool:
-    """Return True if all source materials of a result emit the same light in all directions: without fog, a render of
-    their light has no noise.
+    """Return True if all source materials of a reflection emit the same light in all directions. A render of their
+    light has no noise, unless there is fog, which is not looked for here.
     """
     return all(map(emits_alike, _shown(result)))
 

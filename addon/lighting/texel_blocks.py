@@ -22,8 +22,7 @@ class Block:
 
 
 def blocks_of(group: np.ndarray, spots: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[Block]]:
-    """Sort faces into blocks, each for faces of one group: one for all of them, or one for each cell of a grid,
-    whichever takes the fewest texels.
+    """Sort faces into blocks. Each group has one block, or one for each cell of a grid, whichever has fewer texels.
 
     Parameters
     ----------
@@ -37,7 +36,7 @@ def blocks_of(group: np.ndarray, spots: np.ndarray) -> tuple[np.ndarray, np.ndar
     block : (k,) int64
         The block of each face.
     low : (b, 2) int64
-        Lowest column and row of each block, where the spots are.
+        Lowest column and row of each block, in the coordinates of `spots`.
     blocks : list of Block
         Their places in the picture are not known yet.
     """
@@ -74,7 +73,7 @@ def pack(blocks: Sequence[Block]) -> np.ndarray:
 
 
 def _bounds(block: np.ndarray, spots: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest columns and rows (b, 2) of blocks with their margins, and those behind the highest."""
+    """Return the lowest column and row (b, 2) of each of `count` blocks with its margin, and one past the highest."""
     low, high = np.full((count, 2), np.inf), np.zeros((count, 2))
     np.minimum.at(low, block, spots.min(axis=1))
     np.maximum.at(high, block, spots.max(axis=1))

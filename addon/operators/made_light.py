@@ -21,13 +21,13 @@ from ..lighting import (
     Unwrapped,
     alone,
     can_be_lit,
+    fill_export_image,
     forget_light,
     grown,
     is_cut_out,
     is_plain,
     lay_out,
     light_record,
-    new_export_image,
     new_image,
     new_material,
     only_emits,
@@ -105,7 +105,7 @@ def light_results(context: bpy.types.Context, lit: list, view: View, samples: in
     used, seen = grown(paths_seen.used, [seen], RIM)
     if not clear:
         seen[..., 3] = 1.0
-    yield from part(new_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
+    yield from part(fill_export_image(export_image, seen, unwrapped, dense), 0.95, 0.04)
     if is_cut_out(seen[..., 3][used]):
         for material in materials.values():
             show_as_cut_out(material)

@@ -63,8 +63,8 @@ def by_cycles(room, pixels: np.ndarray) -> np.ndarray:
 
 
 def at_middles(room) -> np.ndarray:
-    """Return what Cycles shows of the file (height, width, 3) by three.js' samples: one in the middle of each pixel
-    at twice the size.
+    """Return what Cycles shows of the open scene, (SIZE, SIZE, 3) in linear light, by the samples that three.js takes:
+    one in the middle of each pixel of a picture of twice the size, which is then averaged by four.
     """
     rendering, scene = room("addon.rendering"), bpy.context.scene.copy()
     try:

@@ -10,7 +10,7 @@ MUST_RUN = "EVERY_ENGINE"   # a variable of the environment, set by CI, with whi
 
 
 def skip_or_fail(reason: str) -> NoReturn:
-    """End a test for a reason: as failed if every engine must be there."""
+    """End the running test: as failed if every render engine must be there (`MUST_RUN`), else as skipped."""
     if os.environ.get(MUST_RUN):
         pytest.fail(reason)
     pytest.skip(reason)

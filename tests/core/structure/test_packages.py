@@ -44,7 +44,7 @@ def package_of(parts: tuple[str, ...]) -> str:
 
 
 def imports_of_packages(root: str) -> dict[str, set[str]]:
-    """Return what each package of `core` or `addon` imports of the others there."""
+    """Return, for each package of `root` (`core` or `addon`), the other packages of it that it imports."""
     under = defaultdict(set)
     for path in FILES:
         own = path.relative_to(ROOT).parts
